@@ -11,8 +11,7 @@ use criterion::{
 use std::{hint::black_box, ops::ControlFlow, process::Command, time::Duration};
 use voussoir::{
     analysis::{
-        self, Control, ControlPoint, Law, Limited, PushOptions, Question, SettleOptions,
-        SupportMove,
+        self, Control, Law, Limited,
         follow::machine::{MachineOptions, machine},
     },
     assembly,
@@ -116,21 +115,6 @@ fn figures(c: &mut Criterion) {
                 .output()
                 .expect("the program runs")
         })
-    });
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/structures/spreading-arch.json");
-    let scene = read_file(path.as_ref()).expect("the scene is there").0;
-    let model = interface::prepare(&scene).expect("the scene resolves");
-    let to = |support: &str, x: f64| analysis::SupportMove {
-        support: support.into(),
-        way: [x, 0.0, 0.0],
-        turn_deg: [0.0; 3],
-    };
-    let question = analysis::Question::Settle(analysis::SettleOptions {
-        moves: vec![to("springer_left", -1.0), to("springer_right", 1.0)],
-        ..Default::default()
-    });
-    group.bench_function("supports of an arch of 16 voussoirs spread until it falls", |b| {
-        b.iter(|| analysis::ask(&question, &scene, &model, &Control::default()))
     });
     let plan = concat!(env!("CARGO_MANIFEST_DIR"), "/structures/sweeps/arch-in-earthquake.json");
     let sweep = sweep::open(plan.as_ref()).expect("the plan opens");
@@ -290,40 +274,5 @@ fn rocks(c: &mut Criterion) {
     });
 }
 
-/// A spreading arch of 16 voussoirs to its fall, and 30 points of the capacity curve of a wall of 32 ×
-/// 32 blocks that is turned over about its toe.
-fn paths(c: &mut Criterion) {
-    let mut group = c.benchmark_group("paths");
-    group.sample_size(10).sampling_mode(SamplingMode::Flat);
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/structures/spreading-arch.json");
-    let (arch, _) = read_file(path.as_ref()).expect("the bench scene reads");
-    let apart = |support: &str, x: f64| SupportMove {
-        support: support.into(),
-        way: [x, 0.0, 0.0],
-        turn_deg: [0.0; 3],
-    };
-    let moves = vec![apart("springer_left", -1.0), apart("springer_right", 1.0)];
-    let settle = Question::Settle(SettleOptions { moves, ..SettleOptions::default() });
-    let text = r#"{ "format": "voussoir-scene/1", "joints": { "default": { "friction": "infinite" } },
-        "templates": [ { "wall": { "size": [1, 0.5, 0.5], "courses": 32, "blocks": 32 } } ],
-        "loads": { "live": [ { "weight": [1, 0, 0] } ] } }"#;
-    let wall = read_str("bench", text).expect("the bench scene is well formed").0;
-    let push = Question::Push(PushOptions {
-        control: ControlPoint { block: "c31_00".into(), point: [0.25, 0.0, 15.75] },
-        toward: [1.0, 0.0, 0.0],
-        at: (1..=30).map(f64::from).collect(),
-        from: Vec::new(),
-    });
-    for (name, scene, question) in
-        [("arch, 16 voussoirs", arch, settle), ("wall, 32 x 32, 30 points", wall, push)]
-    {
-        let model = interface::prepare(&scene).expect("the bench scene resolves");
-        group.bench_function(name, |b| {
-            b.iter(|| analysis::ask(&question, &scene, &model, &Control::default()))
-        });
-    }
-    group.finish();
-}
-
-criterion_group!(benches, stages, figures, walls, large, steps, rocks, paths);
+criterion_group!(benches, stages, figures, walls, large, steps, rocks);
 criterion_main!(benches);

@@ -452,6 +452,11 @@ pub const JOINT_CLOSED: f64 = 1e-9;
 /// Larger: a point of another value passes. Smaller: rounding of saved poses is refused.
 pub const ON_THE_WAY: f64 = 1e-9;
 
+/// A support whose centre of mass lies nearer to the middle of several than this × their reach has no
+/// outwards. Larger: supports near the middle of a ring are refused. Smaller: its direction is
+/// rounding.
+pub const AT_MIDDLE: f64 = 1e-6;
+
 /// A load factor smaller than this × the natural one (dead load over live load) has vanished. Larger: a curve ends
 /// early. Smaller: rounding of the last point is refused.
 pub const VANISHES: f64 = 1e-6;

@@ -7,7 +7,7 @@ use crate::{
     wait::{self, Watch},
 };
 use pyo3::prelude::*;
-use std::{ops::ControlFlow, sync::Arc, time::Instant};
+use std::{ops::ControlFlow, path::PathBuf, sync::Arc, time::Instant};
 use voussoir::{
     analysis::{
         self, Answer as Found, AssessOptions, Control, Law, Question, SimulateOptions, doubt,
@@ -15,7 +15,7 @@ use voussoir::{
     dynamics::Progress,
     error::{Finding, FindingCode, InputError, JsonPath},
     interface::{Model, prepare},
-    proof::{PackingFile, ResultFile, work::Work},
+    proof::{PackingFile, ResultFile, kept::KeptPath, work::Work},
     report::view::Film,
     scene::Scene as Plain,
     sweep::{self, Between},
@@ -41,6 +41,8 @@ pub struct Manner {
     pub film: bool,
     /// Beside a simulation: the law of the verdict, where that is asked.
     pub verdict: Option<Law>,
+    /// Of a path: the file that has its points as soon as they are proved.
+    pub keep: Option<PathBuf>,
 }
 
 /// When `assess` runs the scene in time as well.
@@ -56,7 +58,7 @@ pub enum Beside {
 /// Asks a question of a scene. `question` is what result files and plans hold:
 /// `{"limit": {"law": "coulomb"}}`.
 #[pyfunction]
-#[pyo3(signature = (scene, question, *, keep_all=false, time_limit=None, worst=Vec::new(), simulate="never", threads=1, frames=0, film=false, verdict=None, progress=None))]
+#[pyo3(signature = (scene, question, *, keep_all=false, time_limit=None, worst=Vec::new(), simulate="never", threads=1, frames=0, film=false, verdict=None, keep=None, progress=None))]
 #[allow(clippy::too_many_arguments)]
 pub fn ask(
     py: Python,
@@ -70,6 +72,7 @@ pub fn ask(
     frames: usize,
     film: bool,
     verdict: Option<&str>,
+    keep: Option<PathBuf>,
     progress: Option<&Bound<PyAny>>,
 ) -> PyResult<Answer> {
     let question: Question = self::question(question)?;
@@ -89,7 +92,8 @@ pub fn ask(
         Some("coulomb") => Some(Law::Coulomb),
         Some(word) => return Err(unknown("law", word)),
     };
-    let manner = Manner { keep_all, time_limit, worst, simulate, threads, frames, film, verdict };
+    let manner =
+        Manner { keep_all, time_limit, worst, simulate, threads, frames, film, verdict, keep };
     let ready = scene.ready();
     wait::run(py, progress, move |watch| answer(&ready, &question, &manner, watch))
 }
@@ -174,6 +178,7 @@ fn answer(
             let packed = Packed { file, scene: ready.scene.clone() };
             return Ok(Answer::new(proof, Arc::new(own), Vec::new(), Some(packed)));
         }
+        _ if manner.keep.is_some() => session.kept(question)?,
         _ => {
             let found = session.ask(question)?;
             let made = ResultFile::of_question(question, &ready.scene, &model, &found, &control);
@@ -241,6 +246,16 @@ impl Session<'_> {
     fn ask(&self, question: &Question) -> Result<Found, Trouble> {
         analysis::ask(question, &self.ready.scene, self.model, self.control)
             .map_err(|e| self.ready.located(e))
+    }
+
+    /// Of a path, from where the file has it.
+    fn kept(&self, question: &Question) -> Result<ResultFile, Trouble> {
+        let (scene, file) = (&self.ready.scene, self.manner.keep.as_deref().ok_or_else(none)?);
+        let kept = KeptPath::open(file, question, scene, self.model).map_err(Trouble::other)?;
+        let asked = kept.ask(question, scene, self.model, self.control);
+        let (result, failed) = asked.map_err(|e| self.ready.located(e))?;
+        // What was to be kept and is not would be missed after the next kill.
+        failed.map_or(Ok(result), |e| Err(Trouble::other(e)))
     }
 
     fn in_time(

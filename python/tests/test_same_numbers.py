@@ -121,6 +121,32 @@ def test_movements(structures: Path) -> None:
     assert claimed.claims == "stable" and len(claimed.forces.forces)
 
 
+def test_supports_that_move_outwards(structures: Path) -> None:
+    arch = structures / "spreading-arch.json"
+    path = voussoir.settle(arch, out={"springer_*": 0.02})
+    expected = said("settle", arch, "--move", "springer_*=out:0.02")
+    assert without_time(path.to_dict()) == without_time(expected)
+    assert path.status == "reached"
+    with pytest.raises(voussoir.InputError, match="one support alone has no outwards"):
+        voussoir.settle(arch, out={"springer_left": 0.02})
+
+
+def test_a_path_is_kept_and_taken_up(structures: Path, tmp_path: Path) -> None:
+    arch, kept = structures / "spreading-arch.json", tmp_path / "kept.jsonl"
+    whole = voussoir.settle(arch, {"springer_right": (0.12, 0, 0)}, keep=kept)
+    lines = kept.read_text().splitlines()
+    assert len(lines) > 4
+    # A kill: half of the points, and a line that was being written.
+    kept.write_text("\n".join(lines[: len(lines) // 2]) + '\n{"path":')
+    again = voussoir.settle(arch, {"springer_right": (0.12, 0, 0)}, keep=kept)
+    assert again.status == whole.status == "falls"
+    assert again.value == pytest.approx(whole.value, rel=1e-9)
+    assert len(again.parameter) == pytest.approx(len(whole.parameter), abs=2)
+    assert voussoir.check(again)
+    with pytest.raises(voussoir.VoussoirError, match="its rows are not those of"):
+        voussoir.settle(arch, {"springer_right": (0.11, 0, 0)}, keep=kept)
+
+
 def test_earthquakes(structures: Path) -> None:
     wall = structures / "overturning-wall.json"
     answer = voussoir.kinematic(wall, toward=(1, 0))

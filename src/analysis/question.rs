@@ -210,17 +210,43 @@ pub struct SettleOptions {
     pub from: Vec<SavedPose>,
 }
 
-/// How far a support moves while the parameter goes from 0 to 1.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+/// How far supports move while the parameter goes from 0 to 1.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SupportMove {
-    /// The support.
+    /// The support, or several that move alike: `*` stands for any letters of a name.
     pub support: String,
     /// The way, m.
+    #[serde(default, skip_serializing_if = "is_zero")]
     pub way: [f64; 3],
-    /// The turn about its centre of mass: axis × angle in degrees.
+    /// Beside it the way outwards of each of several supports, m (inwards where < 0): horizontal,
+    /// away from the mean of their centres of mass.
+    #[serde(default, skip_serializing_if = "is_nothing")]
+    pub out: f64,
+    /// The turn of each about its own centre of mass: axis × angle in degrees.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub turn_deg: [f64; 3],
+}
+
+impl SupportMove {
+    /// Supports that move this way, m; `*` stands for any letters of a name.
+    pub fn along(support: impl Into<String>, way: [f64; 3]) -> Self {
+        Self { support: support.into(), way, ..Self::default() }
+    }
+
+    /// Supports that move outwards by this, m, each away from the middle of all that the name fits.
+    pub fn outwards(support: impl Into<String>, out: f64) -> Self {
+        Self { support: support.into(), out, ..Self::default() }
+    }
+
+    /// Whether nothing moves.
+    fn is_at_rest(&self) -> bool {
+        self.way == [0.0; 3] && self.out == 0.0 && self.turn_deg == [0.0; 3]
+    }
+}
+
+fn is_nothing(value: &f64) -> bool {
+    *value == 0.0
 }
 
 fn is_zero(v: &[f64; 3]) -> bool {
@@ -539,11 +565,11 @@ fn check_moves(path: &JsonPath, o: &SettleOptions) -> Result<(), InputError> {
         if o.moves[..k].iter().any(|other| other.support == m.support) {
             return refuse("moves", format!("{} is told to move twice", m.support));
         }
-        if !m.way.iter().chain(&m.turn_deg).all(|v| v.is_finite()) {
+        if !m.way.iter().chain(&m.turn_deg).chain([&m.out]).all(|v| v.is_finite()) {
             return refuse("moves", format!("{}: a number is not finite", m.support));
         }
     }
-    if o.moves.iter().all(|m| m.way == [0.0; 3] && m.turn_deg == [0.0; 3]) {
+    if o.moves.iter().all(SupportMove::is_at_rest) {
         return refuse("moves", "no support moves".into());
     }
     if o.at.iter().any(|v| !(0.0..=1.0).contains(v)) {

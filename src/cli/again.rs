@@ -77,7 +77,11 @@ impl Settle {
         let moves = self.moves.iter().map(|m| {
             let turn = if m.turn_deg == [0.0; 3] { &[][..] } else { &m.turn_deg };
             let numbers = [&m.way[..], turn].concat();
-            let word = format!("{}={}", m.support, list(&numbers));
+            let word = if m.out == 0.0 {
+                format!("{}={}", m.support, list(&numbers))
+            } else {
+                format!("{}=out:{}", m.support, m.out)
+            };
             format!("--move {}", super::question::quoted(&word))
         });
         moves.chain(at(&self.at)).chain(self.curve.begun()).collect()

@@ -14,8 +14,7 @@ use anyhow::{Context, bail};
 use std::{path::Path, time::Instant};
 use voussoir::{
     analysis::{
-        Answer, Control, Difference, Law, Question, Watch, ask, ask_on, ask_watched,
-        coulomb::Found, follow::answer::GoesOn,
+        Answer, Control, Difference, Law, Question, Watch, ask, ask_watched, coulomb::Found,
     },
     deadline::Deadline,
     dynamics::Frame,
@@ -200,12 +199,6 @@ impl<'a> Session<'a> {
     /// Asks a question about the scene.
     pub fn ask(&self, question: &Question) -> anyhow::Result<Answer> {
         ask(question, &self.scene, &self.model, &self.control()).map_err(|e| self.refuse(e))
-    }
-
-    /// The same, of a path that goes on, with somebody who hears of its points.
-    pub fn ask_on(&self, question: &Question, path: GoesOn) -> anyhow::Result<Answer> {
-        ask_on(question, &self.scene, &self.model, &self.control(), path)
-            .map_err(|e| self.refuse(e))
     }
 
     /// The same, of what happens in time: with somebody who watches.

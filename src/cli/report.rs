@@ -6,9 +6,10 @@ use std::{
 };
 use voussoir::{
     dynamics::Frame,
+    keep::digest,
     limits,
     report::{
-        record::{Origin, date, digest},
+        record::{Origin, date},
         text::{Layout, TextOptions},
         view::Film,
     },

@@ -29,7 +29,10 @@ mod units;
 
 pub use crate::terms::{Fate, Fidelity, Run, Stop};
 pub use outcome::{FirstMotion, Frame, MeanContact, Pose, SimulationOutcome};
-pub use run::{BlockMotion, Burden, Shaken, ShakenFate, Shaking, shake, simulate};
+pub use run::{
+    BlockMotion, Burden, Carriage, CarriedAlong, Shaken, ShakenFate, Shaking, carry, shake,
+    simulate,
+};
 
 #[cfg(doc)]
 use crate::tolerance::{FALLEN, SETTLED};

@@ -273,6 +273,15 @@ impl<'a> World<'a> {
         }
     }
 
+    /// Has a support there, and so turned since the start, at the end of the next step.
+    pub fn carry(&mut self, body: usize, center: Vector3<f64>, turn: UnitQuaternion<f64>) {
+        if let Some(body) = self.bodies.get_mut(self.handles[body]) {
+            body.set_body_type(RigidBodyType::KinematicPositionBased, true);
+            let turn = Rotation::from_xyzw(turn.i, turn.j, turn.k, turn.w);
+            body.set_next_kinematic_position(Pose::from_parts(vector(center), turn));
+        }
+    }
+
     /// Takes the speed out of a body.
     pub fn stop(&mut self, body: usize) {
         if let Some(body) = self.bodies.get_mut(self.handles[body]) {

@@ -1,7 +1,9 @@
 //! Running the engine until the outcome is clear.
 
+mod carried;
 mod shaken;
 
+pub use carried::{Carriage, CarriedAlong, carry};
 pub use shaken::{BlockMotion, Burden, Shaken, ShakenFate, Shaking, shake};
 
 use super::{
@@ -35,6 +37,8 @@ const PATIENCE: Duration = Duration::from_millis(100);
 /// a little before their contact forces have built up, which is 1 % of the thickness in an arch.
 /// Longer: time is lost.
 const ONSET: f64 = 1.0;
+/// Before anything but blocks moves the dead load is put on and comes to rest, √(L/g).
+const BEFORE: f64 = 4.0;
 /// Contact forces are those of a scene at rest when reactions and loads add up to this × the loads.
 const BALANCED: f64 = 1e-6;
 /// The horizon in √(H/g) and in √(L/g), H the height of the scene, L the median block size.
@@ -171,6 +175,13 @@ impl Loads {
         }
         Self { total, turning }
     }
+}
+
+/// What acts on blocks beside loads and contacts.
+struct Beside {
+    rolling: Rolling,
+    couples: BTreeMap<usize, Vector3<f64>>,
+    springs: Springs,
 }
 
 /// What stays the same from run to run.
@@ -365,6 +376,27 @@ impl Stage<'_> {
             contacts,
             frames,
         })
+    }
+
+    /// Puts the dead load on, and lets it come to rest.
+    fn at_rest(&self, world: &mut World, dt: f64) -> Beside {
+        let springs = Springs::new(&self.model.interfaces, self.bodies, &self.units, dt);
+        let (rolling, couples) = Default::default();
+        let mut beside = Beside { rolling, couples, springs };
+        for k in 1..=(BEFORE / dt).ceil() as usize {
+            self.advance(world, &mut beside, smooth(k as f64 * dt / ONSET), dt);
+        }
+        beside
+    }
+
+    /// One step under this part of the dead load.
+    fn advance(&self, world: &mut World, beside: &mut Beside, part: f64, dt: f64) {
+        let pulls = beside.springs.pulls(world, self.bodies, part);
+        self.load(world, part, true, &beside.couples, &pulls);
+        world.step();
+        if self.frictions.resist_rolling() {
+            beside.couples = beside.rolling.torques(self.bodies, self.frictions, world, dt);
+        }
     }
 
     fn thickness(&self, block: usize) -> f64 {

@@ -3,9 +3,11 @@
 //! being done and no other. The same command takes the file up again.
 
 mod alone;
+mod digest;
 mod numbered;
 
 pub(crate) use alone::Alone;
+pub use digest::digest;
 pub(crate) use numbered::{Numbered, numbered};
 
 use crate::{error::RowsError, files, limits, plain};

@@ -4,7 +4,7 @@ use super::slid::{Faces, flat};
 use crate::{
     assembly::{Assembly, Block, Facet, Polyhedron, Solid},
     interface::{ContactFrame, ContactKind, Interface},
-    plane::polygon,
+    plane::{clip, polygon, polygon::P2},
 };
 use nalgebra::Vector3;
 
@@ -13,6 +13,11 @@ use nalgebra::Vector3;
 const NEAR: f64 = 0.1;
 /// Faces whose normals are farther from opposite than this cosine (18°) touch along edges.
 const OPPOSITE: f64 = -0.95;
+
+/// Faces that lie behind each other by more than this × how far away they are looked for have their
+/// blocks between them, as the two outer faces of a thin slab and of its neighbour: they never meet.
+/// Larger: what overlaps from the start is taken for a joint. Smaller: rounding.
+const BEHIND: f64 = 1e-9;
 
 /// Bounding box, m.
 fn bounds(shape: &Polyhedron) -> [Vector3<f64>; 2] {
@@ -88,7 +93,7 @@ pub(super) fn joints(assembly: &Assembly, known: &[Interface]) -> Vec<(Interface
     found
 }
 
-/// Two facets that lie opposite and near each other.
+/// Two facets that lie opposite and near each other, with nothing of their blocks between them.
 fn facing(shapes: [&Polyhedron; 2], facets: [&Facet; 2], reach: f64) -> Option<Faces> {
     let [own, other] = facets;
     if own.normal.dot(&other.normal) > OPPOSITE {
@@ -101,10 +106,30 @@ fn facing(shapes: [&Polyhedron; 2], facets: [&Facet; 2], reach: f64) -> Option<F
     }
     let frame = ContactFrame::around(own.normal);
     let middle = own.normal * own.offset;
-    let near = |p: &[u32], q: &[u32]| {
-        let [p, q] = [flat(shapes[0], p, &frame, &middle), flat(shapes[1], q, &frame, &middle)];
-        polygon::touch(&p, &q, reach)
+    let [below, above] = [0, 1].map(|k| -> Vec<Vec<P2>> {
+        facets[k].pieces.iter().map(|p| flat(shapes[k], p, &frame, &middle)).collect()
+    });
+    let pairs = || below.iter().flat_map(|p| above.iter().map(move |q| (p, q)));
+    if !pairs().any(|(p, q)| polygon::touch(p, q, reach)) {
+        return None;
+    }
+    let behind = -BEHIND * reach;
+    let common: Vec<P2> = pairs().flat_map(|(p, q)| clip::clip(q, p, BEHIND * reach)).collect();
+    let in_front = if common.is_empty() {
+        // Beside each other: one of them has all of the other before it.
+        let all = |k: usize| {
+            let (from, of) = (facets[k], &facets[1 - k].pieces);
+            let mut corners = of.iter().flat_map(|p| shapes[1 - k].points(p));
+            corners.all(|p| from.normal.dot(&p) - from.offset >= behind)
+        };
+        all(0) || all(1)
+    } else {
+        let slope = -own.normal.dot(&other.normal);
+        let height = |p: &P2| {
+            let at = middle + frame.t1 * p.x + frame.t2 * p.y;
+            (other.normal.dot(&at) - other.offset) / slope
+        };
+        common.iter().all(|p| height(p) >= behind)
     };
-    let is_near = own.pieces.iter().any(|p| other.pieces.iter().any(|q| near(p, q)));
-    is_near.then(|| Faces::between(shapes, facets))
+    in_front.then(|| Faces::between(shapes, facets))
 }

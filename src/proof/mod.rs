@@ -4,6 +4,8 @@
 pub mod answer;
 pub mod certificate;
 pub mod critical;
+#[cfg(feature = "sweep")]
+pub mod kept;
 pub mod kinematic;
 pub mod member;
 pub mod moving;

@@ -41,6 +41,7 @@ mod mistakes;
 mod page;
 mod parts;
 mod path;
+mod path_in_time;
 mod path_members;
 mod path_slides;
 mod pictures;

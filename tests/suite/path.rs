@@ -11,10 +11,10 @@ use voussoir::{
     },
     deadline::Deadline,
     dynamics::{Fate, Fidelity, SimulationSettings, simulate},
-    path::{Carried, saved::read_poses},
+    path::{Carried, Drive, Moves, saved::read_poses},
     proof::{
         self, ResultFile,
-        path::{PathEventKind, PathPoint, PathResult, PathStatus},
+        path::{DrivenBy, PathEventKind, PathPoint, PathResult, PathStatus},
     },
     scene::Scene,
 };
@@ -43,7 +43,7 @@ fn arch(voussoirs: usize, thickness: f64, embrace_deg: f64, more: Value) -> Scen
 }
 
 fn to(support: &str, way: [f64; 3]) -> SupportMove {
-    SupportMove { support: support.into(), way, turn_deg: [0.0; 3] }
+    SupportMove::along(support, way)
 }
 
 /// Both supports of an arch move outwards by the parameter, m.
@@ -205,15 +205,18 @@ fn a_dome_on_a_ring_that_spreads_pushes_all_of_it_alike() {
         "oculus_deg": 20,
     });
     let scene = template(0.7, json!({ "dome": dome }), json!({}));
-    let outwards = |k: usize| {
-        let (y, x) = (std::f64::consts::TAU * (k as f64 + 0.5) / 8.0).sin_cos();
-        to(&format!("springer_{k:02}"), [0.2 * x, 0.2 * y, 0.0])
-    };
-    let moves: Vec<SupportMove> = (0..8).map(outwards).collect();
-    let ways: Vec<Vector3<f64>> = moves.iter().map(|m| Vector3::from(m.way)).collect();
+    let moves = vec![SupportMove::outwards("springer_*", 0.2)];
     let question = Question::Settle(SettleOptions { moves, ..Default::default() });
     let file = followed(&scene, &question);
     assert_eq!(file.answer.path().unwrap().status, PathStatus::Reached);
+    let DrivenBy::Supports(moved) = &path(&file).driven_by else { panic!("supports move") };
+    assert_eq!(moved.len(), 8);
+    let ways: Vec<Vector3<f64>> = moved.iter().map(|m| m.way.into()).collect();
+    for (k, way) in ways.iter().enumerate() {
+        let (y, x) = (std::f64::consts::TAU * (k as f64 + 0.5) / 8.0).sin_cos();
+        assert_eq!(moved[k].support, format!("springer_{k:02}"));
+        assert!((way - 0.2 * Vector3::new(x, y, 0.0)).norm() < 1e-15, "{way}");
+    }
     let assembly = model(&scene).assembly;
     let height = |p: &PathPoint| -> f64 {
         let poses = read_poses(&assembly, &p.poses).unwrap();
@@ -232,6 +235,59 @@ fn a_dome_on_a_ring_that_spreads_pushes_all_of_it_alike() {
         let mean = 0.5 * (push(&pair[0]) + push(&pair[1]));
         close(mean * (pair[1].value - pair[0].value), lost, 1e-3);
     }
+}
+
+/// What a pattern and a way outwards mean, and where they mean nothing.
+#[test]
+fn supports_move_outwards_where_there_is_an_outwards() {
+    let scene = arch(7, 0.15, 157.5, json!({}));
+    let settle = |moves: Vec<SupportMove>| {
+        let question = Question::Settle(SettleOptions { moves, ..Default::default() });
+        ask(&question, &scene, &model(&scene), &Control::default())
+    };
+    let ways = |moves| {
+        let Ok(Answer::Path(found)) = settle(moves) else { panic!("a path") };
+        let Drive::Settle(Moves(moves)) = &found.drive else { panic!("supports move") };
+        moves.iter().map(|m| m.way).collect::<Vec<_>>()
+    };
+    let sinks = [0.0, 0.0, -0.01];
+    for (asked, left, right) in [
+        (SupportMove::outwards("springer_*", 0.01), [-0.01, 0.0, 0.0], [0.01, 0.0, 0.0]),
+        (SupportMove::outwards("s*", -0.01), [0.01, 0.0, 0.0], [-0.01, 0.0, 0.0]),
+        (to("*_*", sinks), sinks, sinks),
+        (
+            SupportMove { way: sinks, ..SupportMove::outwards("*", 0.01) },
+            [-0.01, 0.0, -0.01],
+            [0.01, 0.0, -0.01],
+        ),
+    ] {
+        let found = ways(vec![asked]);
+        assert_eq!(found.len(), 2);
+        for (way, expected) in found.iter().zip([left, right]) {
+            assert!((way - Vector3::from(expected)).norm() < 1e-16, "{way}");
+        }
+    }
+    for (moves, word) in [
+        (vec![SupportMove::outwards("pier_*", 0.01)], "pier_*: there is no such support"),
+        (vec![SupportMove::outwards("v*", 0.01)], "v*: there is no such support"),
+        (vec![SupportMove::outwards("*_left", 0.01)], "springer_left: one support alone has no"),
+        (
+            vec![SupportMove::outwards("*", 0.01), to("springer_left", [0.1, 0.0, 0.0])],
+            "springer_left is told to move twice",
+        ),
+        (vec![SupportMove::outwards("*", f64::NAN)], "not finite"),
+        (vec![SupportMove::outwards("*", 0.0)], "no support moves"),
+    ] {
+        let said = settle(moves).expect_err(word).to_string();
+        assert!(said.contains(word), "{said}");
+    }
+    let foot = |x: f64| fixed(cuboid(&format!("s{x}"), [1.0, 1.0, 1.0], [x, 0.0, -1.0]));
+    let row = [foot(-2.0), foot(0.0), foot(2.0), cuboid("beam", [6.0, 1.0, 1.0], [0.0; 3])];
+    let beam = crate::ask::scene(0.5, json!(row), json!({}));
+    let moves = vec![SupportMove::outwards("s*", 0.01)];
+    let question = Question::Settle(SettleOptions { moves, ..Default::default() });
+    let said = ask(&question, &beam, &model(&beam), &Control::default()).expect_err("no outwards");
+    assert!(said.to_string().contains("s0 is in the middle"), "{said}");
 }
 
 /// Voussoirs 0 to 2 turn about the intrados of the left springing, with hinges at the extrados of

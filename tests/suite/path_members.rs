@@ -20,7 +20,7 @@ fn path(file: &ResultFile) -> &PathResult {
 }
 
 fn to(support: &str, way: [f64; 3]) -> SupportMove {
-    SupportMove { support: support.into(), way, turn_deg: [0.0; 3] }
+    SupportMove::along(support, way)
 }
 
 fn close(value: f64, expected: f64, relative: f64) {

@@ -2,7 +2,7 @@
 //! every point with proof from its poses alone.
 
 use crate::ask::{asked, cuboid, fixed, model, prism, push, scene, template};
-use serde_json::json;
+use serde_json::{Value, json};
 use voussoir::{
     analysis::{ControlPoint, PushOptions, Question, SettleOptions, SupportMove},
     path::saved::read_poses,
@@ -17,9 +17,8 @@ fn settled(scene: &Scene, moves: &[(&str, [f64; 3], [f64; 3])], at: &[f64]) -> R
     let moves = moves
         .iter()
         .map(|(support, way, turn_deg)| SupportMove {
-            support: (*support).into(),
-            way: *way,
             turn_deg: *turn_deg,
+            ..SupportMove::along(*support, *way)
         })
         .collect();
     let options = SettleOptions { moves, at: at.to_vec(), ..Default::default() };
@@ -117,15 +116,22 @@ fn a_wedge_between_supports_that_part_sinks_at_a_constant_thrust() {
 }
 
 /// A support drawn away from under a block that rests on two: the one that carries more takes it
-/// along, and the other slides beneath it with μ × what it carries.
+/// along, and the other slides beneath it with μ × what it carries. Three thin slabs do the same: the
+/// lower face of the first and the upper of the last are near each other, and never meet.
 #[test]
 fn a_support_drawn_away_slides_under_what_rests_on_another() {
-    let blocks = json!([
+    draws_away(&[cuboid("block", [2.0, 1.0, 0.5], [-0.25, 0.0, 0.0])]);
+    let slab = |id: &str, z: f64| cuboid(id, [2.0, 1.0, 0.05], [-0.25, 0.0, z]);
+    draws_away(&[slab("block", 0.0), slab("second", 0.05), slab("third", 0.1)]);
+}
+
+fn draws_away(resting: &[Value]) {
+    let mut blocks = vec![
         fixed(cuboid("left", [2.0, 1.0, 0.5], [-1.0, 0.0, -0.5])),
         fixed(cuboid("right", [2.0, 1.0, 0.5], [1.0, 0.0, -0.5])),
-        cuboid("block", [2.0, 1.0, 0.5], [-0.25, 0.0, 0.0]),
-    ]);
-    let scene = scene(0.4, blocks, json!({}));
+    ];
+    blocks.extend(resting.iter().cloned());
+    let scene = scene(0.4, json!(blocks), json!({}));
     let file = settled(&scene, &[("right", [0.5, 0.0, 0.0], [0.0; 3])], &[]);
     assert_eq!(status(&file), PathStatus::Reached, "{:?}", file.answer.path());
     for p in path(&file).points.iter().filter(|p| p.value > 0.0) {

@@ -65,7 +65,7 @@ fn the_file_of_the_scene_has_its_digest() {
         let file = desk.path().join("scene.json");
         fs::write(&file, text).unwrap();
         let page = report(&["assess", file.to_str().unwrap()], &desk.path().join("page.html"));
-        let said = voussoir::report::record::digest(text.as_bytes());
+        let said = voussoir::keep::digest(text.as_bytes());
         assert!(page.contains(&said), "no digest {said}");
         said
     };

@@ -265,10 +265,12 @@ def thrust(
 
 def settle(
     scene: SceneLike,
-    moves: Mapping[str, Vector],
+    moves: Mapping[str, Vector] | None = None,
     *,
+    out: Mapping[str, float] | None = None,
     turns_deg: Mapping[str, Vector] | None = None,
     at: Sequence[float] = (),
+    keep: str | os.PathLike[str] | None = None,
     keep_all: bool = False,
     time_limit: float | None = None,
     progress: Progress = False,
@@ -277,23 +279,39 @@ def settle(
 
     Parameters
     ----------
-    moves : ids of supports to three numbers
-        The way of each while the parameter goes from 0 to 1, m.
+    moves : ids of supports to three numbers, optional
+        The way of each while the parameter goes from 0 to 1, m; ``*`` stands for any letters of a
+        name: ``{"pier_*": (0, 0, -0.1)}``.
+    out : ids of supports to numbers, optional
+        The way outwards of each of several supports, m: horizontally away from the mean of the
+        centres of mass of all that the name fits: ``{"springer_*": 0.05}``.
     turns_deg : ids of supports to three numbers, optional
         Axis × angle in degrees, about the centre of mass.
     at : numbers from 0 to 1
         Values of the parameter that become points of the curve.
+    keep : path, optional
+        Every point is in this file as soon as it is proved; the same call takes it up again after a
+        kill at any point.
     """
-    turns = dict(turns_deg or {})
+    ways, outwards, turns = dict(moves or {}), dict(out or {}), dict(turns_deg or {})
     listed = []
-    for support in [*moves, *(s for s in turns if s not in moves)]:
-        move: dict[str, Any] = {"support": support, "way": _three(moves.get(support, (0, 0, 0)))}
+    for support in dict.fromkeys([*ways, *outwards, *turns]):
+        move: dict[str, Any] = {"support": support, "way": _three(ways.get(support, (0, 0, 0)))}
+        if support in outwards:
+            move["out"] = float(outwards[support])
         if support in turns:
             move["turn_deg"] = _three(turns[support])
         listed.append(move)
     question = {"settle": {"moves": listed, "at": [float(v) for v in at]}}
     return Path(
-        _ask(scene, question, keep_all=keep_all, time_limit=time_limit, progress=progress)
+        _ask(
+            scene,
+            question,
+            keep=keep,
+            keep_all=keep_all,
+            time_limit=time_limit,
+            progress=progress,
+        )
     )
 
 
@@ -303,6 +321,7 @@ def push(
     toward: Vector,
     *,
     at: Sequence[float] = (),
+    keep: str | os.PathLike[str] | None = None,
     keep_all: bool = False,
     time_limit: float | None = None,
     progress: Progress = False,
@@ -317,6 +336,8 @@ def push(
         The direction in which its way is measured.
     at : numbers
         Ways that become points of the curve, m.
+    keep : path, optional
+        As of :func:`settle`.
     """
     block, point = control
     options = {
@@ -325,7 +346,14 @@ def push(
         "at": [float(v) for v in at],
     }
     return Path(
-        _ask(scene, {"push": options}, keep_all=keep_all, time_limit=time_limit, progress=progress)
+        _ask(
+            scene,
+            {"push": options},
+            keep=keep,
+            keep_all=keep_all,
+            time_limit=time_limit,
+            progress=progress,
+        )
     )
 
 

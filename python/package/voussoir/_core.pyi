@@ -96,6 +96,7 @@ def ask(
     frames: int = 0,
     film: bool = False,
     verdict: str | None = None,
+    keep: str | os.PathLike[str] | None = None,
     progress: Callable[[float, float, str], object] | None = None,
 ) -> Answer: ...
 @final

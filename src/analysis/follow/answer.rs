@@ -4,6 +4,7 @@ use super::{
     End, Follow, Path, Point,
     branch::follow,
     moved::Moved,
+    supports,
     tracker::{meets, size},
 };
 use crate::{
@@ -79,7 +80,8 @@ const STEP: f64 = 2e-3;
 /// Follows a scene whose supports move.
 ///
 /// # Errors
-/// A support that is none, or is told to move twice or not at all; a scene that cannot be followed.
+/// A name that fits no support, a support that is told to move twice or not at all, a way outwards
+/// where there is no outwards; a scene that cannot be followed.
 pub fn settle(
     model: &Model,
     options: &SettleOptions,
@@ -89,21 +91,7 @@ pub fn settle(
     let error = |text: String| InputError::at(JsonPath::root(), text);
     followable(model)?;
     let blocks = &model.assembly.blocks;
-    let mut moves = Vec::new();
-    for m in &options.moves {
-        let support = model.assembly.find(&m.support).filter(|&i| blocks[i].support);
-        let Some(support) = support else {
-            let supports: Vec<&str> =
-                blocks.iter().filter(|b| b.support).map(|b| b.id.as_str()).take(8).collect();
-            return Err(error(format!("{}: there is no such support", m.support))
-                .hint(format!("supports are {}", supports.join(", "))));
-        };
-        moves.push(Move {
-            support,
-            way: m.way.into(),
-            turn: Vector3::from(m.turn_deg).map(f64::to_radians),
-        });
-    }
+    let moves = supports::moves(&model.assembly, &options.moves)?;
     let speed = moves
         .iter()
         .map(|m| m.way.norm() + m.turn.norm() * blocks[m.support].size)

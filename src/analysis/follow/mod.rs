@@ -17,6 +17,7 @@ mod program;
 mod rebalance;
 mod root;
 mod slide;
+mod supports;
 mod tracker;
 
 pub use branch::Follow;

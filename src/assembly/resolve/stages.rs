@@ -7,7 +7,7 @@ use super::Names;
 use crate::{
     assembly::{AskedStages, Assembly, MemberPlan, Stage},
     error::{InputError, JsonPath},
-    scene::{Scene, StageSpec, suggest},
+    scene::{Scene, StageSpec, fits, suggest},
 };
 use std::collections::BTreeSet;
 
@@ -372,20 +372,6 @@ impl<'a> Known<'a> {
         }
         Ok(())
     }
-}
-
-/// Whether a pattern, in which `*` stands for any letters, fits a name.
-fn fits(pattern: &str, name: &str) -> bool {
-    let mut pieces = pattern.split('*');
-    let Some(rest) = pieces.next().and_then(|head| name.strip_prefix(head)) else { return false };
-    let mut rest = rest;
-    let pieces: Vec<&str> = pieces.collect();
-    let Some((last, middle)) = pieces.split_last() else { return rest.is_empty() };
-    for piece in middle {
-        let Some(at) = rest.find(piece) else { return false };
-        rest = &rest[at + piece.len()..];
-    }
-    rest.ends_with(last)
 }
 
 /// The loads of a scene with some of them left out, on the blocks of `assembly`: the assembly with

@@ -218,11 +218,16 @@ fn block_and_numbers(text: &str) -> Option<(String, Vec<f64>)> {
 }
 
 pub fn support_move(text: &str) -> Result<SupportMove, String> {
-    let wrong = "not a support with three or six numbers, such as right=0.1,0,0";
+    let wrong = "not supports with three or six numbers or a way outwards, such as right=0.1,0,0 or springer_*=out:0.05";
+    if let Some((support, out)) = text.rsplit_once("=out:").filter(|(id, _)| !id.is_empty()) {
+        return Ok(SupportMove::outwards(support, finite(out).map_err(|_| wrong)?));
+    }
     let (support, numbers) = block_and_numbers(text).ok_or(wrong)?;
     match numbers[..] {
-        [x, y, z] => Ok(SupportMove { support, way: [x, y, z], turn_deg: [0.0; 3] }),
-        [x, y, z, a, b, c] => Ok(SupportMove { support, way: [x, y, z], turn_deg: [a, b, c] }),
+        [x, y, z] => Ok(SupportMove::along(support, [x, y, z])),
+        [x, y, z, a, b, c] => {
+            Ok(SupportMove { turn_deg: [a, b, c], ..SupportMove::along(support, [x, y, z]) })
+        }
         _ => Err(wrong.into()),
     }
 }

@@ -12,9 +12,11 @@ use voussoir::analysis::SupportMove;
 pub struct Settle {
     #[command(flatten)]
     pub common: Common,
-    /// How a support moves while the parameter goes from 0 to 1: its way in m and its turn about
-    /// its centre of mass in degrees (axis × angle). Once for every support that moves.
-    #[arg(long = "move", value_name = "SUPPORT=DX,DY,DZ[,RX,RY,RZ]", required_unless_present = "cracks", allow_hyphen_values = true, value_parser = support_move)]
+    /// How supports move while the parameter goes from 0 to 1: their way in m and their turn about
+    /// their centres of mass in degrees (axis × angle), or `out:D`, D metres outwards: horizontally
+    /// away from the mean of the centres of mass of all supports that the name fits. `*` stands for
+    /// any letters of a name.
+    #[arg(long = "move", value_name = "SUPPORT=DX,DY,DZ[,RX,RY,RZ]|out:D", required_unless_present = "cracks", allow_hyphen_values = true, value_parser = support_move)]
     pub moves: Vec<SupportMove>,
     /// The other way round: which movement of which support explains these cracks, in a file like
     /// { "cracks": [ { "between": ["v03", "v04"], "side": "intrados", "width": 0.004 } ] }. Sides are

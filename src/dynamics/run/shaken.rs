@@ -12,11 +12,9 @@ use super::{
         Fidelity, Frame, Progress, SimulationSettings, Stop,
         bodies::{Frictions, bodies},
         rapier::{PREDICTION, Step, World},
-        rolling::Rolling,
         units::Units,
     },
-    Loads, ONSET, PATIENCE, Pulls, REPORT, Springs, Stage, State, smooth, strengths,
-    unknown_members,
+    Beside, Loads, PATIENCE, Pulls, REPORT, Stage, State, strengths, unknown_members,
 };
 use crate::{
     error::{Finding, FindingCode, InputError, JsonPath},
@@ -27,8 +25,6 @@ use crate::{
 use nalgebra::Vector3;
 use std::{collections::BTreeMap, ops::ControlFlow, time::Instant};
 
-/// Before the ground moves its dead load is put on and comes to rest, √(L/g).
-const BEFORE: f64 = 4.0;
 /// After the ground has come to rest the scene is watched this many times as long as a fall takes.
 const AFTER: f64 = 4.0;
 /// What became of a scene on ground that moves.
@@ -187,19 +183,7 @@ impl Stage<'_> {
         let mut world = World::new(self.bodies, self.frictions, step).map_err(|text| {
             InputError::at(JsonPath::root(), text).hint("give the block a simpler shape")
         })?;
-        let (mut rolling, mut couples) = (Rolling::default(), BTreeMap::new());
-        let mut springs = Springs::new(&self.model.interfaces, self.bodies, &self.units, dt);
-        let before = (BEFORE / dt).ceil() as usize;
-        for k in 1..=before {
-            let time = k as f64 * dt;
-            let part = smooth(time / ONSET);
-            let pulls = springs.pulls(&world, self.bodies, part);
-            self.load(&mut world, part, true, &couples, &pulls);
-            world.step();
-            if self.frictions.resist_rolling() {
-                couples = rolling.torques(self.bodies, self.frictions, &world, dt);
-            }
-        }
+        let Beside { mut rolling, mut couples, mut springs } = self.at_rest(&mut world, dt);
         let start: Vec<_> = (0..self.bodies.len()).map(|i| world.pose(i)).collect();
         let down = self.model.assembly.gravity.try_normalize(0.0).unwrap_or(-Vector3::z());
         let horizon = match self.settings.seconds {

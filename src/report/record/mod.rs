@@ -4,7 +4,6 @@
 
 mod asked;
 mod date;
-mod digest;
 mod heaps;
 mod joints;
 mod laws;
@@ -14,7 +13,6 @@ mod pieces;
 mod proof;
 
 pub use date::date;
-pub use digest::digest;
 
 use super::view::View;
 use crate::{
