@@ -8,7 +8,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::{io::IsTerminal, path::Path};
 use voussoir::{
     report::{json, page, study as report},
-    study::{self, Known, cross, extreme, forge, rocking, soak},
+    study::{self, Known, cross, extreme, forge, rocking, soak, yielding},
 };
 
 pub fn run(args: &Study, terminal: &Terminal) -> anyhow::Result<Exit> {
@@ -155,6 +155,25 @@ pub fn run(args: &Study, terminal: &Terminal) -> anyhow::Result<Exit> {
             terminal::print(&json::pretty(&points)?)?;
         } else {
             terminal.page(&report::rocking_text(&points, layout))?;
+        }
+        return Ok(Exit::Yes);
+    }
+    if args.yielding {
+        let cases = yielding::yielding_cases()?;
+        bar.set_length(yielding::yielding_count(&cases) as u64);
+        let points = yielding::yielding(&cases, |_| bar.inc(1))?;
+        bar.finish_and_clear();
+        if let Some(csv) = csv {
+            csv.write(&report::yielding_csv(&points)?)?;
+        }
+        if let Some(folder) = &args.svg {
+            Sink::open(Some(&folder.join("yielding.svg")))?
+                .write(&report::yielding_chart(&points)?)?;
+        }
+        if args.json {
+            terminal::print(&json::pretty(&points)?)?;
+        } else {
+            terminal.page(&report::yielding_text(&points, layout))?;
         }
         return Ok(Exit::Yes);
     }

@@ -162,7 +162,7 @@ pub fn chart(file: &ResultFile) -> Result<String, CurveError> {
             chart
                 .draw_series(at_events.iter().map(upright))
                 .map_err(refused)?
-                .label("a joint opens or slides")
+                .label("a joint opens or slides, a member goes slack or yields")
                 .legend(plot::sample(plotters::style::RGBColor(120, 120, 120)));
         }
         if let Some(bound) = bound {

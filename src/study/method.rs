@@ -150,11 +150,15 @@ impl StudyMethod {
                 let d = coulomb::load_factor(model, &l, &Control::default());
                 Measurement { value: d.value, iterations: d.solves, ..Measurement::default() }
             }
-            Self::Simulation => simulated(
-                model,
-                if knob < 500.0 { Fidelity::Fast } else { Fidelity::Fine },
-                2.0 * known.truth,
-            ),
+            Self::Simulation => {
+                let fidelity = if knob < 500.0 { Fidelity::Fast } else { Fidelity::Fine };
+                let [low, high] = simulated(model, fidelity, 2.0 * known.truth);
+                Measurement {
+                    value: Some(0.5 * (low + high)),
+                    bracket: Some(high - low),
+                    ..Measurement::default()
+                }
+            }
         };
         let value = got.value.filter(|v| v.is_finite());
         StudyPoint {
@@ -196,8 +200,8 @@ const SIMULATED: usize = 40;
 /// Simulations of a bisection: two digits, more than the steps can tell.
 const SIMULATIONS: usize = 8;
 
-/// Halving between 0 and `high` by what happens in time.
-fn simulated(model: &Model, fidelity: Fidelity, mut high: f64) -> Measurement {
+/// Halving between 0 and `high` by what happens in time: what is left.
+pub(super) fn simulated(model: &Model, fidelity: Fidelity, mut high: f64) -> [f64; 2] {
     let settings = dynamics::SimulationSettings {
         fidelity: Some(fidelity),
         ..dynamics::SimulationSettings::default()
@@ -215,11 +219,7 @@ fn simulated(model: &Model, fidelity: Fidelity, mut high: f64) -> Measurement {
             _ => break,
         }
     }
-    Measurement {
-        value: Some(0.5 * (low + high)),
-        bracket: Some(high - low),
-        ..Measurement::default()
-    }
+    [low, high]
 }
 
 /// Halving between 0 and `high` by verdicts about the scene under its dead load and that multiple

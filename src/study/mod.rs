@@ -6,7 +6,7 @@
 //! wrong, undecided or loosely bracketed; [`soak`] asks thousands of random ones and looks for
 //! contradictions, and [`cross`] asks each of as many in several ways that must give one answer;
 //! [`forge`] changes their results into false ones, all of which must be refused. [`rocking`] has
-//! blocks on ground that moves.
+//! blocks on ground that moves; [`yielding`] joints that yield, beside the penalty method.
 
 pub mod cross;
 pub mod extreme;
@@ -17,11 +17,13 @@ mod omissions;
 pub(crate) mod random;
 pub mod rocking;
 pub mod soak;
+pub mod yielding;
 
 pub use known::{Known, known};
 pub use method::StudyMethod;
 pub use omissions::{Omission, omissions};
 pub use rocking::{RockingCase, RockingMethod, RockingPoint, RockingQuantity};
+pub use yielding::{YieldingCase, YieldingMethod, YieldingPoint, YieldingQuantity};
 
 use crate::{error::InputError, solve::Status};
 use serde::{Deserialize, Serialize};

@@ -4,6 +4,7 @@ use super::{
     bed::{Bed, Place},
     grain::Grain,
     law::{Friction, Resultant},
+    member::Line,
     number::{Dual, Number},
 };
 use crate::{
@@ -40,14 +41,16 @@ pub enum Quadrature {
     Corners,
 }
 
-/// All joints of a model, in the order of its interfaces.
+/// All joints of a model, in the order of its interfaces, and its members.
 #[derive(Clone, Debug)]
 pub struct Joints {
     /// The joints.
     pub list: Vec<Joint>,
-    /// Whether a live load acts on the structure that each belongs to; others do not take part in
-    /// what happens along it.
-    pub loaded: Vec<bool>,
+    /// Ties, struts, bars and tendons, in the order of the scene's members.
+    pub lines: Vec<Line>,
+    /// The free blocks of the structures that a live load acts on; others do not take part in what
+    /// happens along it.
+    pub reached: BTreeSet<usize>,
     /// What was assumed.
     pub findings: Vec<Finding>,
 }
@@ -86,16 +89,9 @@ const MODULI: &str =
 /// Refuses models that the question has no answer for.
 ///
 /// # Errors
-/// Members, strengths or pressures that it does not know; joints without a stiffness.
+/// Strengths or pressures that it does not know.
 pub fn needs(model: &Model) -> Result<(), InputError> {
     let root = JsonPath::root();
-    if !model.interfaces.members.is_empty() {
-        return Err(InputError::at(
-            root.key("members"),
-            "the state with stiffness knows no members yet",
-        )
-        .hint("leave them out, or ask `assess`"));
-    }
     for face in &model.interfaces.list {
         let law = &face.law;
         let unknown = [
@@ -126,7 +122,8 @@ impl Joints {
     /// The joints of a model.
     ///
     /// # Errors
-    /// As [`needs`]; a joint whose stiffness is not known.
+    /// As [`needs`]; a member of a kind that it does not know; a joint or a member whose stiffness is
+    /// not known.
     pub fn new(model: &Model, quadrature: Quadrature) -> Result<Self, InputError> {
         needs(model)?;
         let faces = &model.interfaces.list;
@@ -136,14 +133,30 @@ impl Joints {
             .iter()
             .map(|face| joint(&model.assembly, face, quadrature, &corners, &mut told))
             .collect::<Result<_, _>>()?;
-        let loaded = loaded(model, &list);
-        Ok(Self { list, loaded, findings: told.findings() })
+        let members = model.interfaces.members.iter();
+        let lines: Vec<Line> =
+            members.map(|m| Line::new(&model.assembly, m)).collect::<Result<_, _>>()?;
+        let mut joints = Self { list, lines, reached: BTreeSet::new(), findings: told.findings() };
+        joints.reached = joints.reached(model);
+        Ok(joints)
     }
 
-    /// The free blocks of the structures that a live load acts on.
-    pub fn reached(&self) -> BTreeSet<usize> {
-        let loaded = self.list.iter().zip(&self.loaded).filter(|(_, loaded)| **loaded);
-        loaded.flat_map(|(joint, _)| joint.free.iter().copied()).collect()
+    /// The free blocks of each joint, then those of each member: what is joined by one moves together.
+    pub fn groups(&self) -> impl Iterator<Item = Vec<usize>> {
+        let lines = self.lines.iter().map(|l| l.on.iter().map(|w| w.0).collect());
+        self.list.iter().map(|j| j.free.clone()).chain(lines)
+    }
+
+    fn reached(&self, model: &Model) -> BTreeSet<usize> {
+        let mut sets = Sets::new(model.assembly.blocks.len());
+        for group in self.groups() {
+            for pair in group.windows(2) {
+                sets.join(pair[0], pair[1]);
+            }
+        }
+        let live = model.assembly.free().filter(|&i| model.assembly.live[i] != Wrench::zero());
+        let live: BTreeSet<usize> = live.map(|i| sets.find(i)).collect();
+        model.assembly.free().filter(|&i| live.contains(&sets.find(i))).collect()
     }
 
     /// For every joint the greatest of a number (>= 0, one a joint) among the joints of its free
@@ -159,19 +172,6 @@ impl Joints {
         let near = |j: &Joint| j.free.iter().map(|i| most[i]).fold(0.0, f64::max);
         self.list.iter().map(near).collect()
     }
-}
-
-/// Whether a live load acts on what a joint belongs to.
-fn loaded(model: &Model, list: &[Joint]) -> Vec<bool> {
-    let mut sets = Sets::new(model.assembly.blocks.len());
-    for joint in list {
-        if let [a, b] = joint.free[..] {
-            sets.join(a, b);
-        }
-    }
-    let live = model.assembly.free().filter(|&i| model.assembly.live[i] != Wrench::zero());
-    let live: BTreeSet<usize> = live.map(|i| sets.find(i)).collect();
-    list.iter().map(|j| j.free.iter().any(|&i| live.contains(&sets.find(i)))).collect()
 }
 
 /// Area and corners of the joints of each free block, for contacts that have no area.

@@ -21,6 +21,7 @@ mod frequencies;
 pub mod grain;
 mod joints;
 pub mod law;
+pub mod member;
 pub mod number;
 pub mod residual;
 mod state;
@@ -30,7 +31,10 @@ mod track;
 pub use factor::{PathEnd, PathFactor};
 pub use frequencies::{COUNT, frequencies};
 pub use joints::{Joint, JointKind, Joints, Past, Quadrature, needs};
+pub use member::Carries;
 pub use residual::{Residuals, residuals};
-pub use state::{JointState, State, corner_forces};
+pub use state::{JointState, State, States, corner_forces};
 pub use system::{System, Tangent};
-pub use track::{Condition, EventKind, Grip, Step, Touch, Track, conditions, events};
+pub use track::{
+    Condition, Conditions, EventKind, Grip, Step, Touch, Track, Where, conditions, events,
+};

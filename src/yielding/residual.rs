@@ -4,7 +4,7 @@
 use super::{
     joints::{JointKind, Joints},
     law::opens,
-    state::JointState,
+    state::{JointState, States},
 };
 use crate::{
     interface::Model,
@@ -51,10 +51,11 @@ impl Residuals {
 pub fn residuals(
     model: &Model,
     joints: &Joints,
-    states: &[JointState],
+    states: &States,
     forces: &Forces,
     lambda: f64,
 ) -> Residuals {
+    let states = &states.joints;
     let greatest = |of: &dyn Fn(&JointState) -> f64| joints.greatest_near(|k| of(&states[k]));
     let forces_near = greatest(&|s| s.spots.iter().map(|s| s.normal).fold(0.0, f64::max));
     let closing_near = greatest(&|s| -s.opening[0]);

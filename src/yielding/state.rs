@@ -4,6 +4,7 @@ use super::{
     bed, grain,
     joints::{JointKind, Joints, Past},
     law::{Friction, Spot},
+    member::{Pull, amount},
 };
 use crate::{
     interface::Model,
@@ -18,6 +19,17 @@ pub struct State {
     pub displaced: Vec<Rate>,
     /// One a joint.
     pub past: Vec<Past>,
+    /// For each member how much longer it is for good, m.
+    pub eases: Vec<f64>,
+}
+
+/// What all joints and members do.
+#[derive(Clone, Debug)]
+pub struct States {
+    /// One a joint.
+    pub joints: Vec<JointState>,
+    /// One a member.
+    pub members: Vec<Pull>,
 }
 
 /// What a joint does.
@@ -42,16 +54,21 @@ impl State {
             JointKind::Bed(_) => Past::Bed(bed::Past::default()),
             JointKind::Grain(_) => Past::Grain(grain::Past::default()),
         });
-        Self { displaced: vec![Rate::zero(); model.assembly.blocks.len()], past: past.collect() }
+        Self {
+            displaced: vec![Rate::zero(); model.assembly.blocks.len()],
+            past: past.collect(),
+            eases: vec![0.0; joints.lines.len()],
+        }
     }
 
-    /// One step on, to these displacements: what every joint does there.
-    pub fn step(
-        &self,
-        model: &Model,
-        joints: &Joints,
-        displaced: Vec<Rate>,
-    ) -> (Self, Vec<JointState>) {
+    /// What every member does at these displacements.
+    pub fn pulls(&self, joints: &Joints, displaced: &[Rate]) -> Vec<Pull> {
+        let lines = joints.lines.iter().zip(&self.eases);
+        lines.map(|(line, ease)| line.pull(*ease, displaced)).collect()
+    }
+
+    /// One step on, to these displacements: what every joint and member does there.
+    pub fn step(&self, model: &Model, joints: &Joints, displaced: Vec<Rate>) -> (Self, States) {
         let mut pasts = Vec::with_capacity(self.past.len());
         let mut states = Vec::with_capacity(self.past.len());
         for (joint, past) in joints.list.iter().zip(&self.past) {
@@ -89,7 +106,9 @@ impl State {
                 opening,
             });
         }
-        (Self { displaced, past: pasts }, states)
+        let members = self.pulls(joints, &displaced);
+        let eases = members.iter().map(|p| p.ease).collect();
+        (Self { displaced, past: pasts, eases }, States { joints: states, members })
     }
 }
 
@@ -110,12 +129,15 @@ impl JointState {
     }
 }
 
-/// The forces of all joints as forces at the corners of their hulls: every point's force is shared
-/// among the corners of the triangle that it lies in, so that what was in the friction cone stays in
-/// it and no resultant changes.
-pub fn corner_forces(model: &Model, joints: &Joints, states: &[JointState]) -> Forces {
+/// The forces of all joints as forces at the corners of their hulls, and those of members: every
+/// point's force is shared among the corners of the triangle that it lies in, so that what was in the
+/// friction cone stays in it and no resultant changes.
+pub fn corner_forces(model: &Model, joints: &Joints, states: &States) -> Forces {
     let mut forces = no_forces(&model.interfaces);
-    for (k, (joint, state)) in joints.list.iter().zip(states).enumerate() {
+    for (m, pull) in states.members.iter().enumerate() {
+        forces[joints.list.len() + m] = amount(pull.tension);
+    }
+    for (k, (joint, state)) in joints.list.iter().zip(&states.joints).enumerate() {
         let corners: Vec<Vector2<f64>> = model.interfaces.list[k]
             .points
             .iter()

@@ -3,6 +3,7 @@
 use super::{
     joints::{Joint, JointKind, Joints},
     law::{Friction, Resultant, along, opens},
+    member::Carries,
     state::State,
 };
 use crate::{assembly::Wrench, cholesky::Pattern, interface::Model, plane::Sets, verdict::Rate};
@@ -43,10 +44,13 @@ impl<'a> System<'a> {
         let mut row = vec![None; model.assembly.blocks.len()];
         free.iter().enumerate().for_each(|(k, &i)| row[i] = Some(k));
         let mut pairs = BTreeMap::new();
-        for joint in &joints.list {
-            if let (Some(a), Some(b)) = (row[joint.a], row[joint.b]) {
-                let next = pairs.len();
-                pairs.entry((a.max(b), a.min(b))).or_insert(next);
+        for group in joints.groups() {
+            let rows: Vec<usize> = group.iter().filter_map(|&i| row[i]).collect();
+            for (k, &a) in rows.iter().enumerate() {
+                for &b in &rows[..k] {
+                    let next = pairs.len();
+                    pairs.entry((a.max(b), a.min(b))).or_insert(next);
+                }
             }
         }
         let mut below = vec![Vec::new(); free.len()];
@@ -66,7 +70,7 @@ impl<'a> System<'a> {
         let glue = joints.list.iter().map(|joint| glued(model, joint)).collect();
         let mut all =
             Self { model, joints, free, pattern, diagonal: Vec::new(), row, pairs, below, glue };
-        let tangent = all.assemble(|k| all.glue[k]);
+        let tangent = all.assemble(|k| all.glue[k], |m| joints.lines[m].stiffness);
         let diagonal = tangent.own.iter().zip(&all.free).flat_map(|(m, &i)| {
             let size = model.assembly.blocks[i].size;
             // A block that nothing touches has some measure as well.
@@ -108,6 +112,18 @@ impl<'a> System<'a> {
                 }
             }
         }
+        for (line, ease) in self.joints.lines.iter().zip(&state.eases) {
+            // Glued, it neither yields nor goes slack.
+            let pull = line.pull(*ease, displaced);
+            let tension = pull.tension * (1.0 - glue) + line.held(displaced) * glue;
+            for (i, wrench) in &line.on {
+                if let Some(row) = self.row[*i] {
+                    let on = wrench * tension;
+                    left[row] += on;
+                    passing[row] += on.abs();
+                }
+            }
+        }
         [left, passing]
             .map(|list| list.iter().flat_map(|v| v.iter().copied().collect::<Vec<_>>()).collect())
     }
@@ -142,7 +158,7 @@ impl<'a> System<'a> {
         glue: f64,
         friction: Friction,
     ) -> Tangent {
-        self.assemble(|k| {
+        let of_joint = |k: usize| {
             let joint = &self.joints.list[k];
             let motion = joint.motion(&self.model.assembly, displaced);
             let mut slopes = Matrix6::zeros();
@@ -153,11 +169,25 @@ impl<'a> System<'a> {
                 slopes += self.glue[k] * glue;
             }
             slopes
-        })
+        };
+        let of_line = |m: usize| {
+            let line = &self.joints.lines[m];
+            let pull = line.pull(state.eases[m], displaced);
+            // What yields goes on yielding.
+            let stays = friction == Friction::Stays && pull.carries == Carries::Yields;
+            let slope = if stays { 0.0 } else { pull.slope };
+            slope * (1.0 - glue) + line.stiffness * glue
+        };
+        self.assemble(of_joint, of_line)
     }
 
-    /// Stiffness of the blocks (force per displacement, positive where it resists).
-    fn assemble(&self, slopes: impl Fn(usize) -> Matrix6<f64>) -> Tangent {
+    /// Stiffness of the blocks (force per displacement, positive where it resists), by the slopes of
+    /// the joints and of the members.
+    fn assemble(
+        &self,
+        slopes: impl Fn(usize) -> Matrix6<f64>,
+        of_line: impl Fn(usize) -> f64,
+    ) -> Tangent {
         let assembly = &self.model.assembly;
         let mut tangent = Tangent {
             own: vec![Matrix6::zeros(); self.free.len()],
@@ -179,6 +209,19 @@ impl<'a> System<'a> {
                 let (lower, upper) = if a > b { (&one, &two) } else { (&two, &one) };
                 tangent.pairs[place][0] += lower.transpose() * own * upper;
                 tangent.pairs[place][1] += upper.transpose() * own * lower;
+            }
+        }
+        for (m, line) in self.joints.lines.iter().enumerate() {
+            let slope = of_line(m);
+            let on: Vec<_> = line.on.iter().filter_map(|(i, w)| Some((self.row[*i]?, w))).collect();
+            for (k, (a, v)) in on.iter().enumerate() {
+                tangent.own[*a] += *v * v.transpose() * slope;
+                for (b, w) in &on[..k] {
+                    let Some(&place) = self.pairs.get(&(*a.max(b), *a.min(b))) else { continue };
+                    let (lower, upper) = if a > b { (v, w) } else { (w, v) };
+                    tangent.pairs[place][0] += *lower * upper.transpose() * slope;
+                    tangent.pairs[place][1] += *upper * lower.transpose() * slope;
+                }
             }
         }
         tangent

@@ -4,8 +4,9 @@
 use super::{
     joints::{JointKind, Joints},
     law::AT_LIMIT,
+    member::Carries,
     residual::{Residuals, residuals},
-    state::{JointState, State, corner_forces},
+    state::{State, States, corner_forces},
 };
 use crate::{
     interface::Model,
@@ -47,7 +48,16 @@ pub struct Condition {
     pub grip: Grip,
 }
 
-/// What happens to a joint between two states.
+/// What all joints and members do, in words.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Conditions {
+    /// One a joint.
+    pub joints: Vec<Condition>,
+    /// One a member.
+    pub members: Vec<Carries>,
+}
+
+/// What happens to a joint or a member between two states.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum EventKind {
@@ -65,6 +75,23 @@ pub enum EventKind {
     Slides,
     /// It sticks again.
     Sticks,
+    /// A member goes slack.
+    Slackens,
+    /// It carries again.
+    Tightens,
+    /// It has reached its strength.
+    Yields,
+    /// It carries less than its strength again.
+    Holds,
+}
+
+/// What something happens to, by its number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Where {
+    /// A joint.
+    Joint(usize),
+    /// A member.
+    Member(usize),
 }
 
 /// A state on the path.
@@ -74,8 +101,8 @@ pub struct Step {
     pub load_factor: f64,
     /// Displacements of all blocks.
     pub displaced: Vec<Rate>,
-    /// What the joints do, in words.
-    pub conditions: Vec<Condition>,
+    /// What the joints and members do, in words.
+    pub conditions: Conditions,
     /// What is left of the laws.
     pub residuals: Residuals,
 }
@@ -87,14 +114,16 @@ pub struct Track {
     pub steps: Vec<Step>,
     /// What the joints remember of the last one.
     pub state: State,
-    /// What the joints do under the dead load.
-    pub dead: Vec<JointState>,
+    /// What the joints and members do under the dead load.
+    pub dead: States,
     /// The same as forces at the corners.
     pub forces: Forces,
     /// What the joints remember under the dead load.
     pub at_rest: State,
-    /// What the joints do in the last state.
-    pub last: Vec<JointState>,
+    /// What the joints and members do in the last state.
+    pub last: States,
+    /// The forces of the last state, at the corners.
+    pub last_forces: Forces,
 }
 
 /// Edges that open by less than this share of what their joint closes are closed. More: edges that
@@ -115,11 +144,19 @@ impl Track {
             conditions: conditions(joints, &dead),
             residuals: residuals(model, joints, &dead, &forces, 0.0),
         };
-        Self { steps: vec![step], at_rest: state.clone(), state, last: dead.clone(), dead, forces }
+        Self {
+            steps: vec![step],
+            at_rest: state.clone(),
+            state,
+            last: dead.clone(),
+            dead,
+            last_forces: forces.clone(),
+            forces,
+        }
     }
 
-    /// What the joints would do in the next state.
-    pub fn ahead(&self, model: &Model, joints: &Joints, displaced: &[Rate]) -> Vec<Condition> {
+    /// What the joints and members would do in the next state.
+    pub fn ahead(&self, model: &Model, joints: &Joints, displaced: &[Rate]) -> Conditions {
         conditions(joints, &self.state.step(model, joints, displaced.to_vec()).1)
     }
 
@@ -133,7 +170,7 @@ impl Track {
             conditions: conditions(joints, &last),
             residuals: residuals(model, joints, &last, &forces, load_factor),
         });
-        (self.state, self.last) = (state, last);
+        (self.state, self.last, self.last_forces) = (state, last, forces);
     }
 
     /// The worst of each residual on the whole path.
@@ -154,16 +191,21 @@ impl Track {
 
     /// Whether anything that the live load acts on has slid on the way.
     pub fn slides(&self, joints: &Joints) -> bool {
+        let loaded: Vec<bool> = (joints.list.iter())
+            .map(|j| j.free.iter().any(|i| joints.reached.contains(i)))
+            .collect();
         let slides = |c: &Condition| c.grip != Grip::Sticks;
-        let here = |s: &Step| s.conditions.iter().zip(&joints.loaded).any(|(c, l)| *l && slides(c));
+        let here = |s: &Step| s.conditions.joints.iter().zip(&loaded).any(|(c, l)| *l && slides(c));
         self.steps.iter().any(here)
     }
 }
 
-/// What all joints do, in words.
-pub fn conditions(joints: &Joints, states: &[JointState]) -> Vec<Condition> {
+/// What all joints and members do, in words.
+pub fn conditions(joints: &Joints, states: &States) -> Conditions {
+    let members = states.members.iter().map(|p| p.carries).collect();
+    let states = &states.joints;
     let closing = joints.greatest_near(|k| -states[k].opening[0]);
-    (joints.list.iter().zip(states).zip(closing))
+    let joints = (joints.list.iter().zip(states).zip(closing))
         .map(|((joint, s), closing)| {
             let [low, high] = s.opening;
             let touch = if -low <= TOUCHES * closing {
@@ -191,13 +233,14 @@ pub fn conditions(joints: &Joints, states: &[JointState]) -> Vec<Condition> {
             };
             Condition { touch, grip }
         })
-        .collect()
+        .collect();
+    Conditions { joints, members }
 }
 
-/// What happens between two states, joint by joint.
-pub fn events(before: &[Condition], after: &[Condition]) -> Vec<(EventKind, usize)> {
+/// What happens between two states, joint by joint, then member by member.
+pub fn events(before: &Conditions, after: &Conditions) -> Vec<(EventKind, Where)> {
     let mut list = Vec::new();
-    for (k, (a, b)) in before.iter().zip(after).enumerate() {
+    for (k, (a, b)) in before.joints.iter().zip(&after.joints).enumerate() {
         let touch = match (a.touch, b.touch) {
             (a, b) if a == b => None,
             (Touch::Pressed, Touch::PartlyOpen) => Some(EventKind::Opens),
@@ -213,7 +256,17 @@ pub fn events(before: &[Condition], after: &[Condition]) -> Vec<(EventKind, usiz
             // From sliding to slipping: a part of it sticks again.
             _ => Some(EventKind::Slips),
         };
-        list.extend(touch.into_iter().chain(grip).map(|kind| (kind, k)));
+        list.extend(touch.into_iter().chain(grip).map(|kind| (kind, Where::Joint(k))));
+    }
+    for (m, (a, b)) in before.members.iter().zip(&after.members).enumerate() {
+        let kind = match (a, b) {
+            (a, b) if a == b => continue,
+            (_, Carries::Slack) => EventKind::Slackens,
+            (_, Carries::Yields) => EventKind::Yields,
+            (Carries::Slack, Carries::Holds) => EventKind::Tightens,
+            (_, Carries::Holds) => EventKind::Holds,
+        };
+        list.push((kind, Where::Member(m)));
     }
     list
 }

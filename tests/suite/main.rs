@@ -59,6 +59,7 @@ mod shaken;
 mod stage_order;
 mod stages;
 mod state;
+mod state_members;
 mod still;
 mod strength;
 mod sweep;

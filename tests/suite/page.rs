@@ -169,6 +169,25 @@ fn a_page_holds_the_numbers_of_the_answer() {
     }
 }
 
+/// Of joints that yield the page has the pressed parts with their pressures, and how far blocks went as
+/// they are.
+#[test]
+fn a_page_holds_pressures_and_displacements() {
+    let desk = folder();
+    let bed = structure("block-on-bed");
+    let view = &data(&report(&["state", &bed], &desk.path().join("bed.html")))["view"];
+    // 39.24 kN on 1 m², at all four corners; 1e9 Pa/m.
+    let pressures = &view["pressures"];
+    assert!((pressures["greatest"].as_f64().unwrap() / 39240.0 - 1.0).abs() < 1e-9);
+    assert_eq!((wholes(&pressures["joint"]), wholes(&pressures["start"])), (vec![0], vec![0, 4]));
+    assert!(singles(&pressures["share"]).iter().all(|s| (s - 1.0).abs() < 1e-6));
+    let way = view["motions"][0]["real"].as_f64().unwrap() * view["length"].as_f64().unwrap();
+    assert!((way / 3.924e-5 - 1.0).abs() < 1e-9, "{way}");
+    // Others have none.
+    let rigid = &data(&report(&["limit", &bed], &desk.path().join("rigid.html")))["view"];
+    assert!(rigid["pressures"].is_null() && rigid["motions"][0]["real"].is_null());
+}
+
 /// The same in millimetres and with other densities, up to single precision: a picture has no
 /// units.
 #[test]

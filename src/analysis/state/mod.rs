@@ -182,15 +182,14 @@ fn settles(track: &Track, joints: &Joints, top: f64) -> bool {
     let Some(a) = track.steps.iter().rev().find(far_off) else { return false };
     let grows = ((top - a.load_factor) / (top - b.load_factor)).powf(GROWS);
     let far = |s: &Step, i: usize| s.displaced[i].velocity.norm();
-    joints.reached().into_iter().all(|i| far(b, i) <= far(a, i) * grows)
+    joints.reached.iter().all(|&i| far(b, i) <= far(a, i) * grows)
 }
 
 /// The load factor at which live and dead load weigh the same, on the structures that the live load
 /// acts on.
 fn both_weigh(model: &Model, joints: &Joints) -> f64 {
     let mut assembly = model.assembly.clone();
-    let there = joints.reached();
-    let beside = |i: &usize| !there.contains(i);
+    let beside = |i: &usize| !joints.reached.contains(i);
     (0..assembly.dead.len()).filter(beside).for_each(|i| assembly.dead[i] = Wrench::zero());
     check::natural_factor(&assembly)
 }

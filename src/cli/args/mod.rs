@@ -165,7 +165,8 @@ pub enum Verb {
     /// What forces and displacements follow from the stiffness of its joints?
     ///
     /// Joints with a "normal_stiffness" yield as springs that cannot pull, spheres of materials with
-    /// "young" and "poisson" by Hertz and Mindlin, friction by Coulomb's law. The state under the dead
+    /// "young" and "poisson" by Hertz and Mindlin, friction by Coulomb's law, ties, struts, bars and
+    /// tendons by their "stiffness". The state under the dead
     /// load is one step from nothing; along the live load steps end where a joint opens or slides, up to
     /// the load factor of that path. The forces prove that it stands, and balance and the conditions
     /// of Signorini and Coulomb are printed with what is left of each. Exit code 0 if a state is found

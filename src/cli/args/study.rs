@@ -26,6 +26,10 @@ pub struct Study {
     /// values.
     #[arg(long, conflicts_with_all = ["scenes", "quick", "repeat", "omissions", "extreme", "random", "keep", "report"])]
     pub rocking: bool,
+    /// Joints that yield instead: the state with stiffness, springs and dampers relaxed to rest, and the
+    /// engine on closed forms.
+    #[arg(long, conflicts_with_all = ["scenes", "quick", "repeat", "omissions", "extreme", "random", "keep", "report", "rocking"])]
+    pub yielding: bool,
     /// So many random scenes instead: verdicts held against their certificates, against omissions
     /// and, of a sample, against simulations. Exit code 1 if any two exclude each other.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000_000), group = "random", conflicts_with_all = ["extreme", "omissions", "quick", "svg", "scenes", "repeat"])]

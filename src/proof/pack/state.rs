@@ -7,6 +7,7 @@ use crate::{
     proof::{
         answer::{Answer, LimitAnswer, LoadFactorAnswer},
         certificate::Certificate,
+        member::lines,
         result::{Direction, QuestionKind, ResultFile},
         state::{Given, StateAnswer, StateResult, StepResult, displacements},
     },
@@ -37,6 +38,9 @@ impl ResultFile {
         };
         let mut file =
             Self::new(QuestionKind::State, scene, model, Answer::State(Box::new(answer)), evidence);
+        if let Some(track) = &asked.track {
+            file.members = lines(model, &track.forces);
+        }
         file.warnings.extend(asked.joints.findings.iter().cloned());
         if asked.track.is_some() || asked.rest.refused().is_some() {
             file.warn(&asked.rest);

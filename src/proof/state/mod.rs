@@ -5,14 +5,18 @@ mod verify;
 
 pub(super) use verify::verify;
 
-use super::{answer::Answer, result::Direction};
+use super::{
+    answer::Answer,
+    member::{MemberLine, lines},
+    result::Direction,
+};
 use crate::{
     interface::Model,
     terms::Bound,
     verdict::{Rate, Verdict, exact::Grade},
     yielding::{
         EventKind, Grip, JointKind, JointState, Joints, PathEnd, PathFactor, Quadrature, Residuals,
-        System, Touch, Track, events, frequencies,
+        System, Touch, Track, Where, events, frequencies,
     },
 };
 use nalgebra::Vector3;
@@ -62,6 +66,10 @@ pub struct StateAnswer {
     /// What every joint does at the end of the path.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub joints_at_end: Vec<JointAnswer>,
+    /// The forces in the members at the end of the path; those under the dead load stand beside the
+    /// answer.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub members_at_end: Vec<MemberLine>,
 }
 
 /// How far a block has moved: small displacements.
@@ -155,7 +163,7 @@ pub struct CurvePoint {
     pub rotation: [f64; 3],
 }
 
-/// What happens to a joint.
+/// What happens to a joint, or to a member.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Event {
@@ -164,7 +172,11 @@ pub struct Event {
     /// What.
     pub kind: EventKind,
     /// The joint.
-    pub between: [String; 2],
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub between: Option<[String; 2]>,
+    /// The member.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub member: Option<String>,
 }
 
 /// The evidence: displacements, from which everything follows.
@@ -209,7 +221,7 @@ impl Given<'_> {
         let of = |states: &[JointState], step: usize| -> Vec<JointAnswer> {
             (0..joints.list.len()).map(|k| self.joint(k, &states[k], step)).collect()
         };
-        let dead = of(&track.dead, 0);
+        let dead = of(&track.dead.joints, 0);
         let displacements = displacements(model, &track.steps[0].displaced);
         let greatest = greatest(&displacements, &dead);
         let system = System::new(model, joints);
@@ -235,7 +247,8 @@ impl Given<'_> {
             }),
             curve: if live { self.curve() } else { Vec::new() },
             events: self.events(),
-            joints_at_end: if last > 0 { of(&track.last, last) } else { Vec::new() },
+            joints_at_end: if last > 0 { of(&track.last.joints, last) } else { Vec::new() },
+            members_at_end: if last > 0 { lines(model, &track.last_forces) } else { Vec::new() },
         }
     }
 
@@ -261,10 +274,14 @@ impl Given<'_> {
         pairs
             .flat_map(|w| {
                 let happened = events(&w[0].conditions, &w[1].conditions).into_iter();
-                happened.map(|(kind, k)| Event {
-                    load_factor: w[1].load_factor,
-                    kind,
-                    between: self.names(k),
+                happened.map(|(kind, at)| {
+                    let (between, member) = match at {
+                        Where::Joint(k) => (Some(self.names(k)), None),
+                        Where::Member(m) => {
+                            (None, Some(self.model.interfaces.members[m].id.clone()))
+                        }
+                    };
+                    Event { load_factor: w[1].load_factor, kind, between, member }
                 })
             })
             .collect()
@@ -290,7 +307,7 @@ impl Given<'_> {
                 (if circle > 0.0 { 1.5 * normal / circle } else { 0.0 }, circle, None)
             }
         };
-        let condition = self.track.steps[step].conditions[k];
+        let condition = self.track.steps[step].conditions.joints[k];
         JointAnswer {
             between: self.names(k),
             at: joint.at.into(),
@@ -354,6 +371,7 @@ impl StateAnswer {
             curve: Vec::new(),
             events: Vec::new(),
             joints_at_end: Vec::new(),
+            members_at_end: Vec::new(),
         }
     }
 }

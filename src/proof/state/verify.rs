@@ -8,15 +8,16 @@ use crate::{
         answer::Answer,
         certificate::Certificate,
         result::{QuestionKind, ResultFile},
-        verify::{Verification, answer, failure, is_no_better, require},
+        verify::{Verification, answer, failure, is_no_better, members, require},
     },
     terms::{Bound, Outcome},
     tolerance,
     verdict::{
-        Evidence, Rate, Verdict,
+        Evidence, Forces, Rate, Verdict,
         check::{self, Claim, Findings},
         evidence::write_forces,
         exact::Grade,
+        member::amounts,
     },
     yielding::{Joints, PathEnd, Track},
 };
@@ -47,7 +48,9 @@ pub(in crate::proof) fn verify(all: &mut Verification, file: &ResultFile, model:
         Err(e) => return all.part("states", failure(e)),
     };
     all.part("states", laws(&track));
-    all.part("forces under the dead load", forces(file, model, &track, said));
+    let mut dead = forces(file, model, &track, said);
+    members(&mut dead, file, model);
+    all.part("forces under the dead load", dead);
     let mut f = Findings::default();
     let bound = bound(&mut f, all, model, result);
     let end = said.load_factor.map_or(PathEnd::None, |l| l.end);
@@ -104,7 +107,8 @@ fn without(file: &ResultFile, said: &StateAnswer) -> Findings {
     let bare = StateAnswer::without(said.verdict, said.quadrature);
     require(&mut f, bare == *said, "without a state nothing is said of one");
     let evidence = Certificate { verified: Vec::new(), ..file.certificate.clone() };
-    require(&mut f, evidence == Certificate::none(), "nothing else is claimed");
+    let nothing = evidence == Certificate::none() && file.members.is_empty();
+    require(&mut f, nothing, "nothing else is claimed");
     f
 }
 
@@ -165,18 +169,29 @@ fn forces(file: &ResultFile, model: &Model, track: &Track, said: &StateAnswer) -
     let evidence = &file.certificate;
     let mut f = Findings::default();
     let here = write_forces(model, &track.forces);
-    let scale = here.iter().flat_map(|c| &c.forces).flatten().fold(0.0_f64, |m, v| m.max(v.abs()));
-    let near = |a: &[f64; 3], b: &[f64; 3]| {
+    let tension = |forces: &Forces| -> Vec<f64> {
+        let own = forces.iter().skip(model.interfaces.list.len());
+        own.map(|forces| amounts(forces).x).collect()
+    };
+    let (pulls, saved) = (tension(&track.forces), evidence.read(model).map(|e| tension(&e.0)));
+    let numbers = here.iter().flat_map(|c| c.forces.iter().flatten()).chain(&pulls);
+    let scale = numbers.fold(0.0_f64, |m, v| m.max(v.abs()));
+    let near = |a: &[f64], b: &[f64]| {
         a.iter().zip(b).all(|(a, b)| (a - b).abs() <= tolerance::SAVED * scale)
     };
-    let same = here.len() == evidence.forces.len()
+    let same = saved.is_ok_and(|saved| near(&pulls, &saved))
+        && here.len() == evidence.forces.len()
         && here.iter().zip(&evidence.forces).all(|(a, b)| {
             a.between == b.between
                 && a.forces.len() == b.forces.len()
                 && b.couples.is_empty()
                 && a.forces.iter().zip(&b.forces).all(|(a, b)| near(a, b))
         });
-    require(&mut f, same, "the forces are those of the joints at the saved displacements");
+    require(
+        &mut f,
+        same,
+        "the forces are those of the joints and members at the saved displacements",
+    );
     let stands = evidence.claim == Some(Claim::Stable) && said.verdict == Verdict::Stable;
     require(&mut f, stands, "it is claimed that it stands, and said");
     if stands {

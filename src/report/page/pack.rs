@@ -116,6 +116,7 @@ pub(super) fn view(view: &View) -> Value {
             "newton": view.loads.iter().flat_map(|l| l.force.iter().copied().collect::<Vec<_>>()).collect::<Vec<f64>>(),
             "live": wholes(view.loads.iter().map(|l| usize::from(l.live))),
         },
+        "pressures": pressures(view, &units),
         "states": view.states.iter().map(|s| state(s, view.joints.len(), &units)).collect::<Vec<_>>(),
         "motions": view.motions.iter().map(|m| motion(m, &units)).collect::<Vec<_>>(),
         "film": film(view, &units),
@@ -262,7 +263,24 @@ fn state(s: &ViewState, joints: usize, units: &Units) -> Value {
     })
 }
 
-/// Rates per unit of the way of the fastest corner, both in units of length.
+/// Pressed parts of joints that yield: shares of the greatest pressure at their corners.
+fn pressures(view: &View, units: &Units) -> Value {
+    let list = || view.pressures.iter();
+    let greatest = list().flat_map(|p| &p.pressure).copied().fold(0.0, f64::max);
+    if greatest <= 0.0 {
+        return Value::Null;
+    }
+    json!({
+        "greatest": greatest,
+        "joint": wholes(list().map(|p| p.joint)),
+        "start": starts(list().map(|p| p.points.len())),
+        "points": units.points(list().flat_map(|p| &p.points)),
+        "share": singles(list().flat_map(|p| p.pressure.iter().map(move |v| v / greatest))),
+    })
+}
+
+/// Rates per unit of the way of the fastest corner, both in units of length; of displacements that way
+/// as it is.
 fn motion(m: &ViewMotion, units: &Units) -> Value {
     let kind = |k: Kind| match k {
         Kind::Hinge => "hinge",
@@ -273,6 +291,7 @@ fn motion(m: &ViewMotion, units: &Units) -> Value {
     };
     json!({
         "name": if m.is_displacement { format!("{}, magnified", m.name) } else { m.name.clone() },
+        "real": m.is_displacement.then_some(m.reach / units.length),
         "velocity": singles(m.rates.iter().flat_map(|r| (r.velocity / m.reach).iter().copied().collect::<Vec<_>>())),
         "spin": singles(m.rates.iter().flat_map(|r| (r.spin * (units.length / m.reach)).iter().copied().collect::<Vec<_>>())),
         "markJoint": wholes(m.marks.iter().map(|k| k.joint)),

@@ -3,8 +3,8 @@
 use crate::study::{StudyMethod, StudyPoint, profile};
 use plotters::{
     prelude::{
-        ChartBuilder, Circle, IntoDrawingArea, IntoLogRange, PathElement, RGBColor, SVGBackend,
-        SeriesLabelPosition, WHITE,
+        ChartBuilder, Circle, EmptyElement, IntoDrawingArea, IntoLogRange, PathElement, RGBColor,
+        SVGBackend, SeriesLabelPosition, WHITE,
     },
     style::{Color, IntoFont},
 };
@@ -14,9 +14,9 @@ use plotters::{
 #[error("no chart: {0}")]
 pub struct StudyChartError(String);
 
-pub(super) const SIZE: (u32, u32) = (680, 420);
+const SIZE: (u32, u32) = (680, 420);
 /// Colours that stay apart for people who do not see all of them (Okabe & Ito 2008), and two more.
-pub(super) const COLOURS: [RGBColor; 10] = [
+const COLOURS: [RGBColor; 10] = [
     RGBColor(0, 0, 0),
     RGBColor(0, 114, 178),
     RGBColor(230, 159, 0),
@@ -29,9 +29,9 @@ pub(super) const COLOURS: [RGBColor; 10] = [
     RGBColor(140, 86, 75),
 ];
 /// Errors below this are drawn here: rounding.
-pub(super) const FLOOR: f64 = 1e-15;
+const FLOOR: f64 = 1e-15;
 
-pub(super) fn refused(e: impl std::fmt::Display) -> StudyChartError {
+fn refused(e: impl std::fmt::Display) -> StudyChartError {
     StudyChartError(e.to_string())
 }
 
@@ -99,6 +99,61 @@ pub fn errors(scene: &str, points: &[StudyPoint]) -> Result<String, StudyChartEr
     Ok(text)
 }
 
+/// Errors of dots below this are drawn here.
+const DOT_FLOOR: f64 = 1e-12;
+
+/// Error against time, a colour for each named series of dots (seconds, relative error).
+///
+/// # Errors
+/// There is no dot.
+pub(super) fn dots(
+    caption: &str,
+    x: &str,
+    series: &[(String, Vec<(f64, f64)>)],
+) -> Result<String, StudyChartError> {
+    let all = || series.iter().flat_map(|s| &s.1).filter(|d| d.0 > 0.0);
+    let (low, high) = all().fold((f64::INFINITY, 0.0_f64), |(l, h), d| (l.min(d.0), h.max(d.0)));
+    if all().next().is_none() {
+        return Err(refused("no method gave a value"));
+    }
+    let mut text = String::new();
+    {
+        let area = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
+        area.fill(&WHITE).map_err(refused)?;
+        let mut chart = ChartBuilder::on(&area)
+            .margin(12)
+            .caption(caption, ("sans-serif", 18))
+            .x_label_area_size(42)
+            .y_label_area_size(70)
+            .build_cartesian_2d((0.5 * low..2.0 * high).log_scale(), (DOT_FLOOR..1.0).log_scale())
+            .map_err(refused)?;
+        chart
+            .configure_mesh()
+            .label_style(("sans-serif", 14))
+            .x_desc(x)
+            .y_desc("relative error")
+            .x_label_formatter(&|v| format!("{v:.0e}"))
+            .y_label_formatter(&|v| format!("{v:.0e}"))
+            .light_line_style(WHITE.mix(0.0))
+            .draw()
+            .map_err(refused)?;
+        for (k, (name, dots)) in series.iter().enumerate() {
+            let colour = COLOURS[k % COLOURS.len()];
+            let dots = dots.iter().filter(|d| d.0 > 0.0).map(|&(seconds, error)| {
+                Circle::new((seconds, error.clamp(DOT_FLOOR, 1.0)), 3, colour.filled())
+            });
+            chart
+                .draw_series(dots)
+                .map_err(refused)?
+                .label(name)
+                .legend(move |at| EmptyElement::at(at) + Circle::new((8, 0), 3, colour.filled()));
+        }
+        legend(&mut chart)?;
+        area.present().map_err(refused)?;
+    }
+    Ok(text)
+}
+
 /// The performance profile: which share of the scenes a method answers to `error` within a multiple
 /// of the fastest method's time.
 ///
@@ -149,7 +204,7 @@ type Chart<'a, 'b, X, Y> = plotters::chart::ChartContext<
     plotters::coord::cartesian::Cartesian2d<X, Y>,
 >;
 
-pub(super) fn legend<'a, X, Y>(chart: &mut Chart<'a, 'a, X, Y>) -> Result<(), StudyChartError>
+fn legend<'a, X, Y>(chart: &mut Chart<'a, 'a, X, Y>) -> Result<(), StudyChartError>
 where
     X: plotters::coord::ranged1d::Ranged<ValueType = f64>,
     Y: plotters::coord::ranged1d::Ranged<ValueType = f64>,

@@ -5,17 +5,11 @@ use super::{
         cells::{Table, row},
         text::{Layout, Page, Role},
     },
-    chart::{COLOURS, FLOOR, SIZE, StudyChartError, legend, refused},
+    chart::{StudyChartError, dots},
 };
 use crate::{
     number::seconds,
     study::{RockingMethod, RockingPoint},
-};
-use plotters::{
-    prelude::{
-        ChartBuilder, Circle, EmptyElement, IntoDrawingArea, IntoLogRange, SVGBackend, WHITE,
-    },
-    style::Color,
 };
 
 /// A table of every point.
@@ -102,54 +96,10 @@ pub fn rocking_text(points: &[RockingPoint], layout: Layout) -> Page {
 /// # Errors
 /// Nothing has an error.
 pub fn rocking_chart(points: &[RockingPoint]) -> Result<String, StudyChartError> {
-    let own: Vec<&RockingPoint> =
-        points.iter().filter(|p| p.error.is_some() && p.seconds > 0.0).collect();
-    let times = own
-        .iter()
-        .map(|p| p.seconds)
-        .fold((f64::INFINITY, 0.0_f64), |(l, h), t| (l.min(t), h.max(t)));
-    if own.is_empty() {
-        return Err(refused("no method gave a value"));
-    }
-    let y = |p: &RockingPoint| p.error.unwrap_or(1.0).clamp(FLOOR, 1.0);
-    let mut text = String::new();
-    {
-        let area = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
-        area.fill(&WHITE).map_err(refused)?;
-        let mut chart = ChartBuilder::on(&area)
-            .margin(12)
-            .caption("rocking blocks with exact values", ("sans-serif", 18))
-            .x_label_area_size(42)
-            .y_label_area_size(70)
-            .build_cartesian_2d(
-                (0.5 * times.0..2.0 * times.1).log_scale(),
-                (1e-12..1.0).log_scale(),
-            )
-            .map_err(refused)?;
-        chart
-            .configure_mesh()
-            .label_style(("sans-serif", 14))
-            .x_desc("seconds a history")
-            .y_desc("relative error")
-            .x_label_formatter(&|v| format!("{v:.0e}"))
-            .y_label_formatter(&|v| format!("{v:.0e}"))
-            .light_line_style(WHITE.mix(0.0))
-            .draw()
-            .map_err(refused)?;
-        for (k, (method, knob)) in settings(points).into_iter().enumerate() {
-            let colour = COLOURS[k % COLOURS.len()];
-            let dots = own
-                .iter()
-                .filter(|p| p.method == method && p.knob == knob)
-                .map(|p| Circle::new((p.seconds, y(p).max(1e-12)), 3, colour.filled()));
-            chart
-                .draw_series(dots)
-                .map_err(refused)?
-                .label(name(method, knob))
-                .legend(move |at| EmptyElement::at(at) + Circle::new((8, 0), 3, colour.filled()));
-        }
-        legend(&mut chart)?;
-        area.present().map_err(refused)?;
-    }
-    Ok(text)
+    let series = settings(points).into_iter().map(|(method, knob)| {
+        let own = points.iter().filter(|p| p.method == method && p.knob == knob);
+        let dots = own.filter_map(|p| Some((p.seconds, p.error?)));
+        (name(method, knob), dots.collect())
+    });
+    dots("rocking blocks with exact values", "seconds a history", &series.collect::<Vec<_>>())
 }

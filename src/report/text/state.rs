@@ -202,7 +202,10 @@ fn joint(j: &JointAnswer) -> String {
 
 /// An event in a line.
 pub(in crate::report) fn event(e: &Event) -> String {
-    let pair = e.between.clone().map(|id| crate::plain::cell(&id).to_string()).join(" | ");
+    let name = match (&e.between, &e.member) {
+        (Some(pair), _) => pair.clone().map(|id| crate::plain::cell(&id).to_string()).join(" | "),
+        (None, member) => crate::plain::cell(member.as_deref().unwrap_or_default()).to_string(),
+    };
     let what = match e.kind {
         EventKind::Opens => "opens at an edge",
         EventKind::Closes => "closes",
@@ -211,6 +214,10 @@ pub(in crate::report) fn event(e: &Event) -> String {
         EventKind::Slips => "slides in part",
         EventKind::Slides => "slides",
         EventKind::Sticks => "sticks",
+        EventKind::Slackens => "goes slack",
+        EventKind::Tightens => "carries",
+        EventKind::Yields => "yields",
+        EventKind::Holds => "carries less than its strength",
     };
-    format!("λ = {}: {pair} {what}", fixed(e.load_factor, 6))
+    format!("λ = {}: {name} {what}", fixed(e.load_factor, 6))
 }

@@ -324,6 +324,34 @@ fn the_view_shows_what_there_is() {
     desk.quiet("heap");
 }
 
+/// Of joints that yield: pressures by colour over each joint, with their scale; displacements magnified
+/// by what the slider says.
+#[test]
+fn pressures_and_displacements_are_shown() {
+    for (name, more, shown) in
+        [("bed", &[][..], "canvas"), ("bed-flat", &["--disable-3d-apis"][..], "flat")]
+    {
+        let Some(desk) = Desk::new(more) else { return };
+        let browser = &desk.browser;
+        desk.open(name, &["state", &structure("block-on-bed")]);
+        assert_eq!(browser.run("return shown.id"), shown);
+        let seen = browser.run("return [polygons().length, polygons()[0][1].length, el('legend').textContent, el('wayText').textContent, state.way]");
+        assert_eq!((&seen[0], &seen[1], &seen[4]), (&json!(1), &json!(4), &json!(0.5)), "{seen}");
+        let said = |k: usize, words: &str| seen[k].as_str().is_some_and(|t| t.contains(words));
+        assert!(said(2, "Pressure in joints") && said(2, "39.24 kPa"), "{seen}");
+        assert!(said(3, "3.924e−5 m at the farthest corner × "), "{seen}");
+        browser.run("pick({ joint: 0 })");
+        let numbers = browser.run("return el('picked').textContent");
+        assert!(
+            numbers.as_str().is_some_and(|t| t.contains("greatest pressure39.24 kPa")),
+            "{numbers}"
+        );
+        browser.run("el('layer-pressures').click()");
+        browser.until("return !el('legend').textContent.includes('Pressure')");
+        desk.quiet(name);
+    }
+}
+
 /// On paper: the record with its drawing, no picture that needs a graphics card, nothing to click,
 /// nothing wider than the sheet.
 #[test]

@@ -48,8 +48,8 @@ function plain(canvas) {
       context.lineWidth = border ? Math.max(0.6, height / 900) : 0.5;
       context.stroke();
     }
-    for (const [points, c, alpha] of polygons()) {
-      const flat = points.map(seen);
+    for (const [points, inks, alpha] of polygons()) {
+      const flat = points.map(seen), c = mul(inks.reduce(add, [0, 0, 0]), 1 / inks.length);
       if (flat.includes(null)) continue;
       trace(flat);
       context.fillStyle = paint(c, alpha);

@@ -7,6 +7,7 @@ const LAYERS = [
   ["members", "Members", "--member", () => members.ids.length],
   ["marks", "Moving joints", "--mark", () => view.motions.length],
   ["slope", "Slope", null, () => view.slope],
+  ["pressures", "Pressure", null, () => view.pressures],
   ["joints", "Joints", "--joint", () => JOINTS],
   ["edges", "Edges", null, () => bodies.edges.length],
 ];
@@ -103,21 +104,31 @@ function named() {
   return list;
 }
 
-// Polygons of joints: [points, colour, opacity].
+// Polygons of joints: [points, the colour of each, opacity].
 function polygons() {
   const list = [], one = (k, ink, alpha) => {
     const points = [];
     for (let p = joints.pointStart[k]; p < joints.pointStart[k + 1]; p++) points.push(moved(joints.a[k], at3(joints.points, p)));
-    list.push([points, ink, alpha]);
+    list.push([points, points.map(() => ink), alpha]);
   };
+  if (view.pressures && state.layers.has("pressures")) {
+    const { joint, start, points, share } = view.pressures, ink = scale();
+    joint.forEach((k, n) => {
+      const corners = Array.from({ length: start[n + 1] - start[n] }, (_, c) => start[n] + c);
+      list.push([corners.map((c) => moved(joints.a[k], at3(points, c))), corners.map((c) => ink(share[c])), 0.9]);
+    });
+  }
   if (state.layers.has("joints")) { const ink = rgb("--joint"); for (let k = 0; k < JOINTS; k++) one(k, ink, 0.55); }
   if (state.picked && state.picked.joint !== undefined) one(state.picked.joint, rgb("--pick"), 0.95);
   return list;
 }
 
+// The greatest displacement of a corner as it is, where the motion is one; nothing of mechanisms.
+const displacement = () => (view.motions[Math.max(state.motion, 0)] || {}).real;
+
 // The colours of the moment in words.
 function legend() {
-  const scale = { value: view.values && [view.values.name, ...view.values.ends], share: ["Share of a joint that is used", "0", "all"], force: ["Greatest force on a joint", "0", newtons(1)], speed: ["Speed in the mechanism", "0", "fastest"], moved: ["Way so far", "0", farthest > 0 ? meters(farthest / (state.motion === FILM ? state.magnify : 1)) : "0"] }[state.colour];
+  const scale = { value: view.values && [view.values.name, ...view.values.ends], share: ["Share of a joint that is used", "0", "all"], force: ["Greatest force on a joint", "0", newtons(1)], speed: displacement() ? ["Displacement", "0", meters(displacement())] : ["Speed in the mechanism", "0", "fastest"], moved: ["Way so far", "0", farthest > 0 ? meters(farthest / (state.motion === FILM ? state.magnify : 1)) : "0"] }[state.colour];
   const keys = LAYERS.filter(([name, , ink, there]) => ink && state.layers.has(name) && there()).map(([name, title, ink]) => make("span", {}, make("i", { class: name === "marks" ? "dot" : false, style: `border-color:var(${ink});${name === "marks" ? `background:var(${ink})` : ""}` }), title));
   if (state.colour === "material") bodies.materials.forEach((name, k) => keys.push(make("span", {}, make("i", { class: "dot", style: `background:rgb(${PALETTE[k % PALETTE.length].map((v) => Math.round(255 * v)).join(",")})` }), name)));
   const key = (ink, words) => make("span", {}, make("i", { style: `border-color:var(${ink})` }), words);
@@ -125,6 +136,7 @@ function legend() {
   if (view.slope && state.layers.has("slope")) keys.push(key("--ink", "highest grains, mean of all paths"), key("--mark", `straight line through them, ${short(view.slope.angle, 3)}°`));
   if (view.caption) keys.push(make("span", {}, view.caption));
   const parts = [make("div", { class: "keys" }, keys)];
-  if (scale) parts.push(scale[0], make("div", { class: "bar", style: "background:linear-gradient(90deg,var(--low),var(--middle),var(--high))" }), make("div", { class: "ends" }, make("span", {}, scale[1]), make("span", {}, scale[2])));
+  const scales = [scale, view.pressures && state.layers.has("pressures") && ["Pressure in joints", "0", withUnit(view.pressures.greatest, "Pa")]];
+  for (const [name, ...ends] of scales.filter(Boolean)) parts.push(name, make("div", { class: "bar", style: "background:linear-gradient(90deg,var(--low),var(--middle),var(--high))" }), make("div", { class: "ends" }, ends.map((end) => make("span", {}, end))));
   el("legend").replaceChildren(...parts);
 }

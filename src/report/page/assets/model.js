@@ -11,6 +11,7 @@ function take(fresh) {
   view.motions.forEach(unpack);
   if (view.film) unpack(view.film);
   if (view.values) unpack(view.values);
+  if (view.pressures) unpack(view.pressures);
   [COUNT, JOINTS] = [bodies.ids.length, joints.a.length];
   view.states.forEach(resultants);
   // The farthest corner of each block from its centre of mass.
@@ -148,18 +149,24 @@ function shade(i) {
 }
 let farthest = 0;
 
+const mix = (a, b, t) => a.map((v, k) => v + (b[k] - v) * t);
+// Colours from the least to the greatest.
+function scale() {
+  const [low, middle, high] = ["--low", "--middle", "--high"].map(rgb);
+  return (share) => { const t = Math.min(Math.max(share, 0), 1); return t < 0.5 ? mix(low, middle, 2 * t) : mix(middle, high, 2 * t - 1); };
+}
+
 // What fills a picture of the scene: the colour of every block.
 const PALETTE = [[0.82, 0.76, 0.66], [0.62, 0.71, 0.78], [0.76, 0.62, 0.56], [0.66, 0.74, 0.6], [0.75, 0.68, 0.78], [0.56, 0.6, 0.66]];
 function colours() {
-  const [low, middle, high, stone, support, pick] = ["--low", "--middle", "--high", "--stone", "--support", "--pick"].map(rgb);
-  const mix = (a, b, t) => a.map((v, k) => v + (b[k] - v) * t);
+  const [stone, support, pick] = ["--stone", "--support", "--pick"].map(rgb), scaled = scale();
   if (state.colour === "moved") { farthest = 0; for (let i = 0; i < COUNT; i++) farthest = Math.max(farthest, displaced(i)); }
   const list = new Float32Array(3 * COUNT);
   for (let i = 0; i < COUNT; i++) {
     const share = shade(i);
     let colour = bodies.support[i] ? support : stone;
     if (state.colour === "material" && bodies.material[i]) colour = PALETTE[(bodies.material[i] - 1) % PALETTE.length];
-    else if (share !== null && !Number.isNaN(share)) { const t = Math.min(Math.max(share, 0), 1); colour = t < 0.5 ? mix(low, middle, 2 * t) : mix(middle, high, 2 * t - 1); }
+    else if (share !== null && !Number.isNaN(share)) colour = scaled(share);
     if (state.picked && state.picked.body === i) colour = mix(colour, pick, 0.75);
     list.set(colour, 3 * i);
   }

@@ -93,7 +93,8 @@ function bodyNumbers(i) {
     ["centre of mass", place(at3(bodies.center, i))],
     ["radius", bodies.radius[i] > 0 ? meters(bodies.radius[i]) : null],
     ["joints used", forces ? percent(forces.bodyUsed[i]) : null],
-    ["speed", motion && !bodies.support[i] ? `${percent(speeds(motion)[i])} of the fastest corner` : null],
+    ["displacement", motion && motion.real && !bodies.support[i] ? meters(motion.real * norm(at3(motion.velocity, i))) : null],
+    ["speed", motion && !motion.real && !bodies.support[i] ? `${percent(speeds(motion)[i])} of the fastest corner` : null],
     ["moved", state.motion === FILM ? `${meters(norm([poses[8 * i + 4], poses[8 * i + 5], poses[8 * i + 6]]) / state.magnify)}, turned ${short((360 / Math.PI) * Math.acos(Math.min(1, Math.abs(poses[8 * i + 3]))) / state.magnify, 3)}°` : null],
     ...mine.map((k) => [loads.live[k] ? "live load" : "dead load", `${withUnit(norm(at3(loads.newton, k)), "N")} at ${place(at3(loads.at, k))}`]),
     ["touches", make("div", { class: "links" }, jointsOf[i].map((k) => jump({ joint: k }, bodies.ids[joints.a[k] === i ? joints.b[k] : joints.a[k]])))],
@@ -116,6 +117,8 @@ function memberNumbers(k) {
 function jointNumbers(k) {
   const forces = forcesNow(), there = forces && !Number.isNaN(forces.normal[k]), from = joints.pointStart[k], to = joints.pointStart[k + 1];
   const motion = view.motions[Math.max(0, state.motion)], mark = motion ? [...motion.markJoint].indexOf(k) : -1;
+  const pressed = [];
+  if (view.pressures) view.pressures.joint.forEach((j, n) => { if (j === k) pressed.push(...view.pressures.share.subarray(view.pressures.start[n], view.pressures.start[n + 1])); });
   const rows = [
     ["", ["face on face", "edge", "point", "given by hand"][joints.kind[k]]],
     ["area", joints.area[k] > 0 ? `${short(joints.area[k] * view.length ** 2)} m²` : null],
@@ -124,9 +127,10 @@ function jointNumbers(k) {
     ["shear force", there ? newtons(forces.shear[k]) : null],
     ["friction used", there && !Number.isNaN(forces.mobilised[k]) ? percent(forces.mobilised[k]) : null],
     ["mean pressure", there && joints.area[k] > 0 ? withUnit((forces.normal[k] * view.force) / (joints.area[k] * view.length ** 2), "Pa") : null],
+    ["greatest pressure", pressed.length ? withUnit(view.pressures.greatest * Math.max(...pressed), "Pa") : null],
     ["eccentricity", there && joints.area[k] > 0 ? `${meters(forces.eccentricity[k])}, ${percent(forces.used[k])} of the way to the edge${forces.kern[k] ? ", in the kern" : ""}` : null],
     ["centre of pressure", there ? place(at3(forces.at, k)) : place(at3(joints.center, k))],
-    ["mechanism", mark >= 0 ? motion.markKind[mark] : motion ? "at rest" : null],
+    ["mechanism", mark >= 0 ? motion.markKind[mark] : motion && !motion.real ? "at rest" : null],
     ["blocks", make("div", { class: "links" }, [joints.a[k], joints.b[k]].map((i) => jump({ body: i }, bodies.ids[i])))],
   ];
   const n = at3(joints.normal, k), points = [];

@@ -94,7 +94,7 @@ function setWay(way) {
   state.way = way;
   el("way").value = Math.round(1000 * way);
   const film = state.motion === FILM;
-  const text = state.motion === -1 ? "" : film && view.film.words.length ? view.film.words[Math.round(way * (view.film.words.length - 1))] : film ? `${short(view.film.times[Math.round(way * (view.film.times.length - 1))], 3)} ${view.film.unit}`.trim() : way ? `${meters(way * amplitude(view.motions[state.motion]))} at the fastest corner` : "at rest";
+  const text = state.motion === -1 ? "" : film && view.film.words.length ? view.film.words[Math.round(way * (view.film.words.length - 1))] : film ? `${short(view.film.times[Math.round(way * (view.film.times.length - 1))], 3)} ${view.film.unit}`.trim() : !way ? "at rest" : displacement() ? `${meters(displacement())} at the farthest corner × ${short((way * amplitude(view.motions[state.motion])) / displacement(), 2)}` : `${meters(way * amplitude(view.motions[state.motion]))} at the fastest corner`;
   el("wayText").textContent = text;
   el("way").setAttribute("aria-valuetext", text);
   if (film && state.picked) numbers();
@@ -128,7 +128,7 @@ function choices() {
   el("motion").replaceChildren(...options(motions));
   el("motionBox").hidden = !motions.length;
   el("kind").replaceChildren(...options([["blocks", "Blocks"], ["joints", "Joints"], members.ids.length && ["members", "Members"]].filter(Boolean)));
-  const kinds = [["stone", "stone"], bodies.materials.length > 1 && ["material", "material"], view.states.length && ["share", "joint share used"], view.states.length && ["force", "greatest force"], view.motions.length && ["speed", "speed in the mechanism"], view.film && view.film.way && ["moved", view.film.way], view.values && ["value", view.values.name.toLowerCase()]].filter(Boolean);
+  const kinds = [["stone", "stone"], bodies.materials.length > 1 && ["material", "material"], view.states.length && ["share", "joint share used"], view.states.length && ["force", "greatest force"], view.motions.length && ["speed", displacement() ? "displacement" : "speed in the mechanism"], view.film && view.film.way && ["moved", view.film.way], view.values && ["value", view.values.name.toLowerCase()]].filter(Boolean);
   el("colour").replaceChildren(...options(kinds));
   if (view.film) {
     // The greatest round number that keeps the motion within a tenth of the picture.
@@ -221,7 +221,10 @@ function begin() {
   if (loads.body.length <= FEW) layer("loads");
   const falls = Boolean(document.querySelector("h1.bad"));
   layer("edges");
-  if (view.film) { state.way = view.film.opens; colour("moved"); if (view.values) colour("value"); motionNow(FILM); } else if (view.values) { colour("value"); motionNow(-1); } else if (falls && view.motions.length) { state.way = 0.8; colour("speed"); layer("marks"); motionNow(0); } else { if (!view.slope && (!forcesNow() || forcesNow().lineBody.length <= CROWD)) layer("line"); colour(telling()); layer("marks"); motionNow(view.motions.length ? 0 : -1); }
+  layer("pressures");
+  // Where joints yield, how far: displaced by half of what the slider has.
+  if (displacement()) state.way = 0.5;
+  if (view.film) { state.way = view.film.opens; colour("moved"); if (view.values) colour("value"); motionNow(FILM); } else if (view.values) { colour("value"); motionNow(-1); } else if (falls && view.motions.length) { state.way = 0.8; colour("speed"); layer("marks"); motionNow(0); } else { if (!view.slope && (!forcesNow() || forcesNow().lineBody.length <= CROWD)) layer("line"); if (!view.pressures) colour(telling()); layer("marks"); motionNow(view.motions.length ? 0 : -1); }
   el("motion").value = state.motion;
   fillList();
   numbers();

@@ -125,9 +125,9 @@ function webgl(canvas) {
     }
     gl.clear(gl.DEPTH_BUFFER_BIT);
     const triangles = [];
-    for (const [points, c, alpha] of polygons()) {
+    for (const [points, inks, alpha] of polygons()) {
       // Points and lines have no area to fill.
-      for (let m = 1; m + 1 < points.length; m++) for (const v of [points[0], points[m], points[m + 1]]) triangles.push(...v, ...c, alpha);
+      for (let m = 1; m + 1 < points.length; m++) for (const c of [0, m, m + 1]) triangles.push(...points[c], ...inks[c], alpha);
     }
     if (triangles.length) {
       use("face");
