@@ -5,10 +5,12 @@ mod clarabel;
 pub(crate) mod coulomb;
 mod engine;
 mod interior;
+mod krylov;
 mod lu;
 mod watched;
 
 pub use self::{
+    krylov::Blocks,
     lu::Lu,
     watched::{Session, solve},
 };

@@ -247,6 +247,51 @@ fn a_pile_of_equal_spheres_sinks_as_by_halving() {
     }
 }
 
+/// A pyramid of layers in squares on its fixed lowest one.
+fn pyramid(layers: usize, mu: f64) -> Value {
+    let r = 0.01;
+    let mut blocks = Vec::new();
+    for l in 0..layers {
+        let m = layers - l;
+        for (i, j) in (0..m * m).map(|k| (k / m, k % m)) {
+            let across = |i: usize| (2.0 * i as f64 - (m - 1) as f64) * r;
+            let at = [across(i), across(j), r + l as f64 * r * 2.0_f64.sqrt()];
+            blocks.push(json!({ "id": format!("{l}/{i}/{j}"), "shape": { "sphere": { "radius": r } }, "at": at, "support": l == 0, "material": "glass" }));
+        }
+    }
+    json!({
+        "format": "voussoir-scene/1",
+        "materials": { "glass": { "density": 2500, "young": E, "poisson": NU } },
+        "joints": { "default": { "friction": mu } },
+        "blocks": blocks
+    })
+}
+
+/// Of a heap of hundreds of spheres, half of whose contacts open or slide, the state is found and proved;
+/// it is as symmetric as the heap, and the fixed layer carries all of it.
+#[test]
+fn a_heap_comes_to_rest() {
+    let a = state(pyramid(9, 0.8));
+    assert!(a.residuals.unwrap().worst() < 1e-10, "{:?}", a.residuals);
+    let slides = a.joints.iter().filter(|j| j.grip == Grip::Slides).count();
+    let open = a.joints.iter().filter(|j| j.touch == Touch::Open).count();
+    assert!(4 * slides > a.joints.len() && open > 0, "{slides} {open} {}", a.joints.len());
+    let weight = 204.0 * 2500.0 * 4.0 / 3.0 * std::f64::consts::PI * 1e-6 * 9.81;
+    let carried: f64 =
+        a.joints.iter().filter(|j| j.between[0].starts_with("0/")).map(|j| j.force[2]).sum();
+    assert!((carried - weight).abs() < 1e-9 * weight, "{carried} {weight}");
+    let scale = a.greatest.as_ref().unwrap().displacement;
+    for l in 1..9 {
+        let m = 9 - l;
+        for (i, j) in (0..m * m).map(|k| (k / m, k % m)) {
+            let down = |i, j| of(&a, &format!("{l}/{i}/{j}")).displacement[2];
+            for other in [down(m - 1 - i, j), down(j, i)] {
+                assert!((down(i, j) - other).abs() < 1e-6 * scale, "{l} {i} {j}");
+            }
+        }
+    }
+}
+
 /// An arch of eleven voussoirs whose joints yield.
 fn arch(normal: f64, shear: f64) -> Value {
     json!({

@@ -5,8 +5,9 @@
 //! has motions that no joint resists (a sphere that rolls) a small multiple of the diagonal is
 //! added, which is zero at the solution. Where Newton's method does not get there from where it
 //! starts, joints are glued by a share that is taken away by and by (continuation); what is found
-//! with glue counts for nothing.
+//! with glue counts for nothing. Heaps are relaxed first ([`heap`](super::heap)).
 
+use super::heap;
 use crate::{
     analysis::Control,
     assembly::Wrench,
@@ -18,9 +19,9 @@ use nalgebra::Vector3;
 
 /// Balance that is reached, by the measure of the joints' stiffness. Less: rounding of displacements
 /// keeps tall scenes from it. More: forces have fewer digits than their check asks for.
-const BALANCED: f64 = 1e-13;
+pub(super) const BALANCED: f64 = 1e-13;
 /// Balance that is good enough where rounding keeps from more. More: the check of the forces fails.
-const GOOD: f64 = 1e-9;
+pub(super) const GOOD: f64 = 1e-9;
 /// Most steps of one search. Fewer: joints that open one by one are given up. More: minutes where
 /// there is nothing to find.
 const STEPS: usize = 60;
@@ -42,11 +43,13 @@ const GLUE: [f64; 9] = [0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5];
 
 /// What solves the equations of a model.
 pub struct Newton<'a> {
-    system: &'a System<'a>,
+    pub(super) system: &'a System<'a>,
     /// For each free block the structure that it belongs to.
     part: Vec<usize>,
     lu: Option<Lu>,
     cholesky: Option<Cholesky>,
+    /// Whether equations are solved with incomplete factors where that is enough.
+    heap: bool,
     /// Steps that it took so far.
     pub steps: usize,
 }
@@ -54,7 +57,8 @@ pub struct Newton<'a> {
 impl<'a> Newton<'a> {
     /// Of these equations.
     pub fn new(system: &'a System<'a>) -> Self {
-        Self { system, part: system.parts(), lu: None, cholesky: None, steps: 0 }
+        let (lu, cholesky) = (None, None);
+        Self { system, part: system.parts(), lu, cholesky, heap: heap::is_one(system), steps: 0 }
     }
 
     /// Of these displacements those that are nearest to balance.
@@ -84,6 +88,12 @@ impl<'a> Newton<'a> {
         from: &[Rate],
         control: &Control,
     ) -> Option<Vec<Rate>> {
+        if self.heap {
+            let glued = self.search(state, loads, from.to_vec(), GLUE[0], control)?;
+            if let Some(displaced) = self.relax(state, loads, glued, control) {
+                return Some(displaced);
+            }
+        }
         let first = self.search(state, loads, from.to_vec(), 0.0, control);
         if let Some(displaced) = first {
             return Some(displaced);
@@ -168,7 +178,7 @@ impl<'a> Newton<'a> {
     /// What is left of the loads, and its size: by the displacement that it makes, in multiples of
     /// that of all that acts, of every structure by itself. So a heavy one beside it lets no other
     /// off.
-    fn residual(
+    pub(super) fn residual(
         &self,
         state: &State,
         loads: &[Wrench],
@@ -186,7 +196,7 @@ impl<'a> Newton<'a> {
         (left, size)
     }
 
-    fn moved(&self, displaced: &[Rate], way: &[f64], share: f64) -> Vec<Rate> {
+    pub(super) fn moved(&self, displaced: &[Rate], way: &[f64], share: f64) -> Vec<Rate> {
         let mut next = displaced.to_vec();
         for (row, &i) in self.system.free.iter().enumerate() {
             let w = &way[6 * row..6 * row + 6];
@@ -204,11 +214,14 @@ impl<'a> Newton<'a> {
         left: &[f64],
         shift: f64,
     ) -> Option<Vec<f64>> {
-        let System { diagonal, pattern, .. } = self.system;
-        let tangent = self.system.tangent(state, displaced, glue, Friction::Follows);
-        let unit: Vec<f64> = diagonal.iter().map(|d| d.sqrt()).collect();
-        let [lower, upper] = self.system.values(&tangent, &unit, shift);
-        let mut x: Vec<f64> = left.iter().zip(&unit).map(|(r, d)| r / d).collect();
+        let pattern = &self.system.pattern;
+        let Equations { unit, lower, upper, right: mut x } =
+            self.equations(state, displaced, glue, left, shift);
+        if self.heap
+            && let Some(x) = heap::solved(pattern, &lower, &upper, &x, heap::CLOSELY)
+        {
+            return scaled(x, &unit);
+        }
         let off = |(l, u): (&f64, &f64)| (l - u).abs();
         let symmetric = lower.iter().zip(&upper).map(off).fold(0.0, f64::max) <= SYMMETRIC;
         let solved = symmetric && {
@@ -231,9 +244,39 @@ impl<'a> Newton<'a> {
                 return None;
             }
         }
-        x.iter_mut().zip(&unit).for_each(|(x, d)| *x /= d);
-        x.iter().all(|v| v.is_finite()).then_some(x)
+        scaled(x, &unit)
     }
+
+    /// The tangent and what is left, in the measure of the joints' stiffness.
+    pub(super) fn equations(
+        &self,
+        state: &State,
+        displaced: &[Rate],
+        glue: f64,
+        left: &[f64],
+        shift: f64,
+    ) -> Equations {
+        let tangent = self.system.tangent(state, displaced, glue, Friction::Follows);
+        let unit: Vec<f64> = self.system.diagonal.iter().map(|d| d.sqrt()).collect();
+        let [lower, upper] = self.system.values(&tangent, &unit, shift);
+        let right = left.iter().zip(&unit).map(|(r, d)| r / d).collect();
+        Equations { unit, lower, upper, right }
+    }
+}
+
+/// Equations for a step: values of the lower triangle and of its mirror image, right side, and what
+/// unknowns are divided by.
+pub(super) struct Equations {
+    pub unit: Vec<f64>,
+    pub lower: Vec<f64>,
+    pub upper: Vec<f64>,
+    pub right: Vec<f64>,
+}
+
+/// A step in m and rad.
+pub(super) fn scaled(mut x: Vec<f64>, unit: &[f64]) -> Option<Vec<f64>> {
+    x.iter_mut().zip(unit).for_each(|(x, d)| *x /= d);
+    x.iter().all(|v| v.is_finite()).then_some(x)
 }
 
 /// The work of what is left along a step.
