@@ -28,6 +28,7 @@ pub mod question;
 pub mod repose;
 pub mod reuse;
 pub mod rocking;
+mod settling;
 pub mod stability;
 pub mod stages;
 pub mod state;
@@ -56,10 +57,10 @@ pub use moving::Moving;
 pub use proved::{Claims, Proved};
 pub use question::{
     AssessOptions, ControlPoint, CriticalOptions, KinematicOptions, LimitOptions, MovingOptions,
-    PushOptions, Question, ReposeOptions, SettleOptions, SimulateOptions, SupportMove,
-    ThrustOptions, TiltOptions,
+    PushOptions, Question, ReposeOptions, SimulateOptions, ThrustOptions, TiltOptions,
 };
 pub use rocking::Rocking;
+pub use settling::{SettleOptions, SupportMove};
 pub use stability::{Packing, Stability, stability};
 pub use stages::{Stages, StagesOptions, stages};
 pub use state::StateOptions;

@@ -30,8 +30,8 @@ mod units;
 pub use crate::terms::{Fate, Fidelity, Run, Stop};
 pub use outcome::{FirstMotion, Frame, MeanContact, Pose, SimulationOutcome};
 pub use run::{
-    BlockMotion, Burden, Carriage, CarriedAlong, Shaken, ShakenFate, Shaking, carry, shake,
-    simulate,
+    BlockMotion, Burden, Carriage, CarriedAlong, Shaken, ShakenFate, Shaking, SupportWay, carry,
+    shake, simulate,
 };
 
 #[cfg(doc)]

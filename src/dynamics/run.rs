@@ -3,7 +3,7 @@
 mod carried;
 mod shaken;
 
-pub use carried::{Carriage, CarriedAlong, carry};
+pub use carried::{Carriage, CarriedAlong, SupportWay, carry};
 pub use shaken::{BlockMotion, Burden, Shaken, ShakenFate, Shaking, shake};
 
 use super::{

@@ -5,9 +5,11 @@ use serde_json::json;
 use std::ops::ControlFlow;
 use voussoir::{
     analysis::{Question, SettleOptions, SupportMove},
-    dynamics::{Carriage, CarriedAlong, Fidelity, Progress, SimulationSettings, Stop, carry},
+    dynamics::{
+        Carriage, CarriedAlong, Fidelity, Progress, SimulationSettings, Stop, SupportWay, carry,
+    },
     interface::Model,
-    path::{Carried, Move, Moves, saved::read_poses},
+    path::{Carried, saved::read_poses},
     scene::Scene,
 };
 
@@ -20,18 +22,18 @@ fn arch(voussoirs: usize, thickness: f64, embrace_deg: f64) -> Scene {
 }
 
 /// Both springers of an arch go outwards by this.
-fn apart(model: &Model, way: f64) -> Moves {
-    let to = |id: &str, x: f64| Move {
+fn apart(model: &Model, way: f64) -> [SupportWay; 2] {
+    let to = |id: &str, x: f64| SupportWay {
         support: model.assembly.find(id).expect("a springer"),
         way: nalgebra::Vector3::x() * x,
         turn: nalgebra::Vector3::zeros(),
     };
-    Moves(vec![to("springer_left", -way), to("springer_right", way)])
+    [to("springer_left", -way), to("springer_right", way)]
 }
 
-fn carried(model: &Model, moves: &Moves, pace: f64, fidelity: Fidelity) -> CarriedAlong {
+fn carried(model: &Model, ways: &[SupportWay], pace: f64, fidelity: Fidelity) -> CarriedAlong {
     let settings = SimulationSettings { fidelity: Some(fidelity), ..Default::default() };
-    carry(model, Carriage { moves, pace }, &settings, &mut |_| ControlFlow::Continue(()))
+    carry(model, Carriage { ways, pace }, &settings, &mut |_| ControlFlow::Continue(()))
         .expect("a simulation")
 }
 
@@ -68,9 +70,9 @@ fn supports_that_stay_are_not_carried() {
     let there = model(&arch(4, 0.2, 180.0));
     let settings = SimulationSettings::default();
     for (way, pace, word) in [(0.0, 1e-3, "no support moves"), (0.1, 0.0, "a pace must be > 0")] {
-        let moves = &apart(&there, way);
+        let ways = &apart(&there, way);
         let watch = &mut |_: &Progress| ControlFlow::Continue(());
-        let said = carry(&there, Carriage { moves, pace }, &settings, watch).expect_err(word);
+        let said = carry(&there, Carriage { ways, pace }, &settings, watch).expect_err(word);
         assert!(said.to_string().contains(word), "{said}");
     }
 }

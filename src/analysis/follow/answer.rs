@@ -9,8 +9,8 @@ use super::{
 };
 use crate::{
     analysis::{
-        Claims, Control, LoadFactor, Proved, assess, coulomb, limit, mend,
-        question::{PushOptions, SettleOptions},
+        Claims, Control, LoadFactor, Proved, SettleOptions, assess, coulomb, limit, mend,
+        question::PushOptions,
     },
     assembly::{Member, Pose, Solid, Wrench},
     error::{InputError, JsonPath},

@@ -1,7 +1,7 @@
 //! Which supports a question moves, and how far.
 
 use crate::{
-    analysis::question::SupportMove,
+    analysis::SupportMove,
     assembly::Assembly,
     error::{InputError, JsonPath},
     path::Move,

@@ -17,7 +17,6 @@ use super::{
 use crate::{
     error::{Finding, InputError, JsonPath},
     interface::Model,
-    path::Moves,
     tolerance::{REST_ENERGY, REST_TIME, SKIN},
 };
 use nalgebra::{UnitQuaternion, Vector3};
@@ -27,11 +26,22 @@ use std::{ops::ControlFlow, time::Instant};
 /// told late. Smaller: mechanisms that go faster than what drives them pass for falls.
 const RUSH: f64 = 10.0;
 
-/// How supports move.
+/// Where a support goes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SupportWay {
+    /// Its index.
+    pub support: usize,
+    /// The way, m.
+    pub way: Vector3<f64>,
+    /// The turn about its centre of mass, rad about each axis.
+    pub turn: Vector3<f64>,
+}
+
+/// How supports move, all in proportion.
 #[derive(Clone, Copy, Debug)]
 pub struct Carriage<'a> {
     /// Where to.
-    pub moves: &'a Moves,
+    pub ways: &'a [SupportWay],
     /// Speed of the fastest point of a support, in √(g L), L the median block size.
     pub pace: f64,
 }
@@ -92,17 +102,16 @@ pub fn carry(
 impl Stage<'_> {
     fn carry(
         &self,
-        Carriage { moves: Moves(moves), pace }: Carriage,
+        Carriage { ways, pace }: Carriage,
         watch: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
     ) -> Result<CarriedAlong, InputError> {
         let begin = Instant::now();
         let fidelity = self.settings.fidelity.unwrap_or(Fidelity::Fine);
         let (per_unit, substeps) = fidelity.fineness();
         let (dt, length) = (1.0 / per_unit, self.units.length);
-        let speed = |m: &crate::path::Move| {
-            m.way.norm() / length + m.turn.norm() * self.bodies[m.support].reach
-        };
-        let fastest = moves.iter().map(speed).fold(0.0, f64::max);
+        let speed =
+            |m: &SupportWay| m.way.norm() / length + m.turn.norm() * self.bodies[m.support].reach;
+        let fastest = ways.iter().map(speed).fold(0.0, f64::max);
         if fastest == 0.0 {
             return Err(InputError::at(JsonPath::root(), "no support moves"));
         }
@@ -129,7 +138,7 @@ impl Stage<'_> {
             let time = steps as f64 * dt;
             if share < 1.0 {
                 share = f64::min(share + dt * smooth(time / ONSET) * pace / fastest, 1.0);
-                for m in moves {
+                for m in ways {
                     let center = self.bodies[m.support].center + m.way * (share / length);
                     let turn = UnitQuaternion::from_scaled_axis(m.turn * share);
                     world.carry(m.support, center, turn);
