@@ -4,21 +4,14 @@
 //! They are relaxed instead, as if in something viscous: a multiple of the diagonal on the tangent is
 //! one over a step in time, and grows shorter as less is left unbalanced (pseudo-transient
 //! continuation, "switched evolution relaxation"; Kelley & Keyes, SIAM J. Numer. Anal. 35, 1998). At the
-//! end it is Newton's method. Equations are solved with incomplete factors: complete ones of 1,000
-//! spheres have millions of entries.
+//! end it is Newton's method.
 
-use super::newton::{BALANCED, Equations, GOOD, Newton, scaled};
-use crate::{
-    analysis::Control,
-    assembly::Wrench,
-    solve::{Blocks, Pattern},
-    verdict::Rate,
-    yielding::{JointKind, State, System},
+use super::{
+    incomplete::{CLOSELY, solved},
+    newton::{BALANCED, Equations, GLUE, GOOD, Newton, scaled},
 };
-use nalgebra::Vector6;
+use crate::{analysis::Control, assembly::Wrench, verdict::Rate, yielding::State};
 
-/// So many blocks that all touch as spheres do are a heap. Fewer: complete factors are faster.
-const HEAP: usize = 200;
 /// The first multiple of the diagonal. More: more steps. Less: what slides overshoots.
 const FIRST: f64 = 0.1;
 /// The least one: motions that meet no resistance. More: fewer digits a step. Less: pivots of rounding.
@@ -27,38 +20,33 @@ const LEAST: f64 = 1e-9;
 const MOST: f64 = 10.0;
 /// Most steps. Those that get there take two or three dozens. More: minutes for nothing.
 const STEPS: usize = 60;
-/// What a solution of the equations leaves of their right side, far from balance and near it.
+/// What a solution of the equations leaves of their right side, far from balance. More: steps astray.
+/// Less: time.
 const ROUGHLY: f64 = 1e-2;
-pub const CLOSELY: f64 = 1e-4;
 /// Balance from which on equations are solved closely.
 const NEAR: f64 = 1e-4;
-/// Most products of a solution: where it takes more, it takes thousands.
-const PRODUCTS: usize = 240;
-
-/// Whether a model is a heap.
-pub fn is_one(system: &System) -> bool {
-    let round = |kind: &JointKind| matches!(kind, JointKind::Grain(_));
-    system.free.len() >= HEAP && system.joints.list.iter().all(|j| round(&j.kind))
-}
-
-/// The solution to this share of the right side; nothing where incomplete factors do not get there.
-pub fn solved(
-    pattern: &Pattern,
-    lower: &[f64],
-    upper: &[f64],
-    right: &[f64],
-    share: f64,
-) -> Option<Vec<f64>> {
-    let matrix = Blocks::new(pattern, lower, upper);
-    let factors = matrix.incomplete()?;
-    let right: Vec<Vector6<f64>> = right.chunks_exact(6).map(Vector6::from_column_slice).collect();
-    let x = matrix.solve(&factors, &right, share, PRODUCTS)?;
-    Some(x.iter().flat_map(|v| v.iter().copied()).collect())
-}
-
 impl Newton<'_> {
-    /// Displacements at which the loads are balanced; nothing where they are not after all steps.
-    pub(super) fn relax(
+    /// Displacements at which the loads are balanced, from those of `from`: of heaps relaxed, where that
+    /// gets there.
+    pub fn rest(
+        &mut self,
+        state: &State,
+        loads: &[Wrench],
+        from: &[Rate],
+        control: &Control,
+    ) -> Option<Vec<Rate>> {
+        if self.heap {
+            let glued = self.search(state, loads, from.to_vec(), GLUE[0], control);
+            let found = glued.and_then(|glued| self.relax(state, loads, glued, control));
+            if found.is_some() {
+                return found;
+            }
+        }
+        self.balance(state, loads, from, control)
+    }
+
+    /// The same; nothing where they are not balanced after all steps.
+    fn relax(
         &mut self,
         state: &State,
         loads: &[Wrench],

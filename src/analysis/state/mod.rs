@@ -7,6 +7,7 @@
 //! has ended.
 
 mod heap;
+mod incomplete;
 mod newton;
 mod options;
 
@@ -120,7 +121,7 @@ pub(super) fn state(
     let system = System::new(model, &joints);
     let mut newton = Newton::new(&system);
     let guess = newton.guess(&start, &model.assembly.dead, control);
-    let found = newton.balance(&start, &model.assembly.dead, &guess, control);
+    let found = newton.rest(&start, &model.assembly.dead, &guess, control);
     let mut track = found.map(|displaced| Track::start(model, &joints, displaced));
     let forces = track.as_ref().map_or_else(|| no_forces(&model.interfaces), |t| t.forces.clone());
     let rest = Proved::new(model, Rest { forces, found: track.is_some() });

@@ -5,9 +5,9 @@
 //! has motions that no joint resists (a sphere that rolls) a small multiple of the diagonal is
 //! added, which is zero at the solution. Where Newton's method does not get there from where it
 //! starts, joints are glued by a share that is taken away by and by (continuation); what is found
-//! with glue counts for nothing. Heaps are relaxed first ([`heap`](super::heap)).
+//! with glue counts for nothing.
 
-use super::heap;
+use super::incomplete;
 use crate::{
     analysis::Control,
     assembly::Wrench,
@@ -39,7 +39,7 @@ const LESS_WORK: f64 = 0.5;
 /// Most steps that leave more than was left before.
 const WORSE: usize = 20;
 /// Shares of glue, one after the other.
-const GLUE: [f64; 9] = [0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5];
+pub(super) const GLUE: [f64; 9] = [0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5];
 
 /// What solves the equations of a model.
 pub struct Newton<'a> {
@@ -49,7 +49,7 @@ pub struct Newton<'a> {
     lu: Option<Lu>,
     cholesky: Option<Cholesky>,
     /// Whether equations are solved with incomplete factors where that is enough.
-    heap: bool,
+    pub(super) heap: bool,
     /// Steps that it took so far.
     pub steps: usize,
 }
@@ -58,7 +58,14 @@ impl<'a> Newton<'a> {
     /// Of these equations.
     pub fn new(system: &'a System<'a>) -> Self {
         let (lu, cholesky) = (None, None);
-        Self { system, part: system.parts(), lu, cholesky, heap: heap::is_one(system), steps: 0 }
+        Self {
+            system,
+            part: system.parts(),
+            lu,
+            cholesky,
+            heap: incomplete::serve(system),
+            steps: 0,
+        }
     }
 
     /// Of these displacements those that are nearest to balance.
@@ -88,12 +95,6 @@ impl<'a> Newton<'a> {
         from: &[Rate],
         control: &Control,
     ) -> Option<Vec<Rate>> {
-        if self.heap {
-            let glued = self.search(state, loads, from.to_vec(), GLUE[0], control)?;
-            if let Some(displaced) = self.relax(state, loads, glued, control) {
-                return Some(displaced);
-            }
-        }
         let first = self.search(state, loads, from.to_vec(), 0.0, control);
         if let Some(displaced) = first {
             return Some(displaced);
@@ -120,7 +121,7 @@ impl<'a> Newton<'a> {
         self.search(state, loads, start.clone(), 1.0, control).unwrap_or(start)
     }
 
-    fn search(
+    pub(super) fn search(
         &mut self,
         state: &State,
         loads: &[Wrench],
@@ -218,7 +219,7 @@ impl<'a> Newton<'a> {
         let Equations { unit, lower, upper, right: mut x } =
             self.equations(state, displaced, glue, left, shift);
         if self.heap
-            && let Some(x) = heap::solved(pattern, &lower, &upper, &x, heap::CLOSELY)
+            && let Some(x) = incomplete::solved(pattern, &lower, &upper, &x, incomplete::CLOSELY)
         {
             return scaled(x, &unit);
         }
