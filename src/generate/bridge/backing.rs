@@ -3,10 +3,10 @@
 //! slide, the joints say. Cut where the joints of the ring are, so that each lies against one
 //! voussoir on either side.
 
-use super::{Plan, SpanPlan, course::Chord, fill};
+use super::{Plan, SpanPlan, chord::Chord};
 use crate::{
     error::InputError,
-    generate::{midline::Point, numbered, support},
+    generate::{check::Place, midline::Point, numbered, support},
     scene::{BlockSpec, Shape, template::Bridge},
     tolerance,
 };
@@ -14,6 +14,11 @@ use crate::{
 /// Courses are at least so much of the ring's thickness high. Lower: where two rings differ by
 /// little, courses as thin as a joint. Higher: courses that lie against several voussoirs.
 const LEAST_COURSE: f64 = 0.25;
+
+/// The place of the backing in errors.
+pub(super) fn place() -> Place {
+    Place(Place::template("bridge").0.key("fill").key("backing"))
+}
 
 /// The backing of a bridge.
 pub(super) struct Masonry {
@@ -135,7 +140,7 @@ impl Masonry {
         let Some(backing) = bridge.fill.as_ref().and_then(|f| f.backing.as_ref()) else {
             return Ok(None);
         };
-        let place = fill::backing_place();
+        let place = place();
         let Some(material) = backing.masonry.clone() else {
             return match backing.behind {
                 Some(_) => Err(place.error(
@@ -223,7 +228,7 @@ impl Haunching {
         height: f64,
         thickness: f64,
     ) -> Result<Self, InputError> {
-        fill::backing_place().length("behind", behind)?;
+        place().length("behind", behind)?;
         let haunch = Side::haunch(span, side);
         let foot = haunch.foot();
         let outwards = [-behind, behind][side];
@@ -254,7 +259,7 @@ impl Haunching {
         let crown =
             haunches.filter_map(|(s, _)| s.0.last()).fold(f64::INFINITY, |low, p| low.min(p[1]));
         if !(height > foot + snap && height < crown - snap) {
-            return Err(fill::backing_place().error(
+            return Err(place().error(
                 "height",
                 format!(
                     "as masonry it must lie between {foot} and {crown} m, the lowest and the highest point of the extrados beside it, got {height}"

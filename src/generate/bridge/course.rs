@@ -1,39 +1,12 @@
 //! Piers, and the course of the upper surface of a bridge: the chords of the extrados and the tops of
 //! the piers, from left to right.
 
-use super::{PierPlan, Plan, SpanPlan, backing::Masonry, voussoir};
+use super::{PierPlan, Plan, SpanPlan, backing::Masonry, chord::Chord, voussoir};
 use crate::{
     error::InputError,
-    generate::{check::Place, midline::Point},
+    generate::check::Place,
     scene::template::{Bridge, BridgePier},
 };
-
-/// A straight piece of the upper surface.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Chord {
-    /// The block below it.
-    pub block: String,
-    /// Its left end (x, z), m.
-    pub from: Point,
-    /// Its right end, m.
-    pub to: Point,
-    /// Which way the fill pushes that resists it: towards the span, +1 or −1 along x; 0 on piers
-    /// and where it is level.
-    pub towards: f64,
-}
-
-impl Chord {
-    /// Length along x, m.
-    pub fn length(&self) -> f64 {
-        self.to[0] - self.from[0]
-    }
-
-    /// Height over a place along x between its ends, m.
-    pub fn height(&self, x: f64) -> f64 {
-        let share = (x - self.from[0]) / self.length();
-        self.from[1] + share * (self.to[1] - self.from[1])
-    }
-}
 
 /// The upper surface of a bridge: of the backing where it is masonry.
 pub(super) fn chords(bridge: &Bridge, plan: &Plan, masonry: Option<&Masonry>) -> Vec<Chord> {

@@ -12,8 +12,9 @@
 
 use super::{
     Plan,
-    backing::{Haunching, Masonry},
-    course::{Chord, chords},
+    backing::{self, Haunching, Masonry},
+    chord::Chord,
+    course::chords,
     pressure::Pressure,
 };
 use crate::{
@@ -91,7 +92,7 @@ pub(super) fn check(
         }
     }
     if let Some(backing) = &fill.backing {
-        let place = backing_place();
+        let place = backing::place();
         place.length("height", backing.height)?;
         match (&backing.masonry, backing.unit_weight) {
             (None, weight) => place.length("unit_weight", weight.unwrap_or(f64::NAN))?,
@@ -125,11 +126,6 @@ pub(super) fn check(
         ));
     }
     Ok(())
-}
-
-/// The place of the backing in errors.
-pub(super) fn backing_place() -> Place {
-    Place(Place::template("bridge").0.key("fill").key("backing"))
 }
 
 /// A bridge without mistakes in its plane, and its backing as masonry.

@@ -2,6 +2,7 @@
 //! extrados.
 
 mod backing;
+mod chord;
 mod course;
 mod fill;
 mod pressure;
