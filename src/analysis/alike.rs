@@ -76,9 +76,10 @@ impl<'a> Tilts<'a> {
         (toward - down * down.dot(&toward)).normalize()
     }
 
-    /// The first of the answers whose direction is carried into this one.
+    /// The first of the answers whose direction is carried into this one; none where time is over, for
+    /// the image has to be proved.
     fn original(&self, done: &[Tilt], toward: Vector3<f64>) -> Option<(usize, Isometry<'_>)> {
-        let isometries = self.isometries.as_ref()?;
+        let isometries = self.isometries.as_ref().filter(|_| !self.control.deadline.is_over())?;
         let toward = self.across(toward);
         done.iter().enumerate().find_map(|(which, tilt)| {
             Some((which, isometries.carrying(tilt.toward, toward, tolerance::SYMMETRY)?))

@@ -216,6 +216,22 @@ struct State {
 }
 
 impl Stage<'_> {
+    /// The engine with the scene in it, and the length of its steps.
+    ///
+    /// # Errors
+    /// A block that it does not take.
+    fn world(&self, fidelity: Fidelity) -> Result<(World<'_>, f64), InputError> {
+        let (per_unit, iterations) = fidelity.fineness();
+        let dt = 1.0 / per_unit;
+        let threads = self.settings.threads.max(1);
+        let step = Step { dt, iterations, threads, prediction: PREDICTION, restitution: 0.0 };
+        let world = World::new(self.bodies, self.frictions, step).map_err(|text| {
+            InputError::at(Default::default(), text)
+                .hint("give the block a simpler shape, or ask `voussoir assess`")
+        })?;
+        Ok((world, dt))
+    }
+
     /// In the engine's units.
     fn horizon(&self) -> f64 {
         let up = -self.model.assembly.gravity.try_normalize(0.0).unwrap_or(-Vector3::z());
@@ -233,18 +249,7 @@ impl Stage<'_> {
         watch: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
     ) -> Result<Show, InputError> {
         let begin = Instant::now();
-        let (per_unit, iterations) = fidelity.fineness();
-        let dt = 1.0 / per_unit;
-        let step = Step {
-            dt,
-            iterations,
-            threads: self.settings.threads.max(1),
-            prediction: PREDICTION,
-            restitution: 0.0,
-        };
-        let mut world = World::new(self.bodies, self.frictions, step).map_err(|text| {
-            InputError::at(Default::default(), text).hint("ask `voussoir assess` instead")
-        })?;
+        let (mut world, dt) = self.world(fidelity)?;
         let total = (horizon / dt).ceil().max(1.0) as usize;
         let every = total.checked_div(self.settings.frames).map_or(usize::MAX, |n| n.max(1));
         let (mut rolling, mut couples) = (Rolling::default(), BTreeMap::new());
@@ -355,7 +360,7 @@ impl Stage<'_> {
                 fate,
                 stop,
                 step: dt * self.units.time,
-                substeps: iterations,
+                substeps: fidelity.fineness().1,
                 steps,
                 time: fell_at.unwrap_or(steps as f64 * dt) * self.units.time,
                 horizon: horizon * self.units.time,

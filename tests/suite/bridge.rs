@@ -523,9 +523,15 @@ fn backing_of_masonry_behind_the_springings() {
         let text = told(&value(height, behind));
         assert!(text.contains(wanted), "{text}");
     }
-    let mut both = value(0.7, json!(0.8));
-    both["templates"][0]["bridge"]["fill"]["backing"]["unit_weight"] = json!(2e4);
-    assert!(told(&both).contains("backing.unit_weight: is that of the material"));
+    for key in ["unit_weight", "passive"] {
+        let mut both = value(0.7, json!(0.8));
+        both["templates"][0]["bridge"]["fill"]["backing"][key] = json!(2.0);
+        let text = told(&both);
+        assert!(text.contains(&format!("backing.{key}: is of backing as fill")), "{text}");
+    }
+    let mut none = value(0.7, json!(0.8));
+    none["templates"][0]["bridge"]["fill"]["backing"] = json!({ "height": 0.7 });
+    assert!(told(&none).contains("backing.unit_weight: is missing"));
     let mut neither = value(0.7, json!(0.8));
     neither["templates"][0]["bridge"]["fill"]["backing"] = json!({ "height": 0.7, "behind": 1 });
     assert!(told(&neither).contains("behind: is how far masonry reaches"));

@@ -292,6 +292,27 @@ fn a_heap_comes_to_rest() {
     }
 }
 
+/// A block on a floor far away changes nothing of a heap.
+#[test]
+fn what_stands_beside_a_heap_changes_nothing() {
+    let alone = pyramid(9, 0.8);
+    let mut beside = alone.clone();
+    let block = |id: &str, z: f64, support: bool| json!({ "id": id, "shape": { "box": { "size": [0.1, 0.1, 0.02] } }, "at": [1.0, 0.0, z], "support": support });
+    let blocks = beside["blocks"].as_array_mut().unwrap();
+    blocks.extend([block("floor", 0.01, true), block("slab", 0.03, false)]);
+    beside["joints"]["overrides"] =
+        json!([{ "blocks": ["floor", "slab"], "normal_stiffness": 1e11, "shear_stiffness": 1e11 }]);
+    let (alone, beside) = (state(alone), state(beside));
+    let scale = alone.greatest.as_ref().unwrap().displacement;
+    for own in &alone.displacements {
+        let other = of(&beside, &own.block);
+        for k in 0..3 {
+            let off = (own.displacement[k] - other.displacement[k]).abs();
+            assert!(off < 1e-6 * scale, "{}: {off}", own.block);
+        }
+    }
+}
+
 /// An arch of eleven voussoirs whose joints yield.
 fn arch(normal: f64, shear: f64) -> Value {
     json!({

@@ -25,6 +25,7 @@ const STEPS: usize = 60;
 const ROUGHLY: f64 = 1e-2;
 /// Balance from which on equations are solved closely.
 const NEAR: f64 = 1e-4;
+
 impl Newton<'_> {
     /// Displacements at which the loads are balanced, from those of `from`: of heaps relaxed, where that
     /// gets there.

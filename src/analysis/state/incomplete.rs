@@ -5,6 +5,7 @@ use crate::{
     yielding::{JointKind, System},
 };
 use nalgebra::Vector6;
+use std::collections::BTreeMap;
 
 /// So many blocks that all touch as spheres do are a heap. Fewer: complete factors are faster.
 const HEAP: usize = 200;
@@ -14,10 +15,20 @@ pub const CLOSELY: f64 = 1e-4;
 /// Most products of a solution: where it takes more, it takes thousands.
 const PRODUCTS: usize = 240;
 
-/// Whether a model is a heap, and they are tried.
+/// Whether there is a heap, whatever else stands beside it, and they are tried.
 pub fn serve(system: &System) -> bool {
-    let round = |kind: &JointKind| matches!(kind, JointKind::Grain(_));
-    system.free.len() >= HEAP && system.joints.list.iter().all(|j| round(&j.kind))
+    let parts = system.parts();
+    let row: BTreeMap<usize, usize> =
+        system.free.iter().enumerate().map(|(row, &block)| (block, row)).collect();
+    let mut blocks: BTreeMap<usize, usize> = BTreeMap::new();
+    parts.iter().for_each(|&part| *blocks.entry(part).or_default() += 1);
+    // What touches otherwise anywhere is no heap.
+    for joint in system.joints.list.iter().filter(|j| !matches!(j.kind, JointKind::Grain(_))) {
+        for row in joint.free.iter().filter_map(|i| row.get(i)) {
+            blocks.remove(&parts[*row]);
+        }
+    }
+    blocks.values().any(|&count| count >= HEAP)
 }
 
 /// The solution to this share of the right side; nothing where incomplete factors do not get there.
@@ -33,4 +44,40 @@ pub fn solved(
     let right: Vec<Vector6<f64>> = right.chunks_exact(6).map(Vector6::from_column_slice).collect();
     let x = matrix.solve(&factors, &right, share, PRODUCTS)?;
     Some(x.iter().flat_map(|v| v.iter().copied()).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        interface::prepare,
+        scene::read_str,
+        yielding::{Joints, Quadrature},
+    };
+    use serde_json::json;
+
+    /// A heap is one whatever stands beside it.
+    #[test]
+    fn what_stands_beside_a_heap_changes_nothing() {
+        let serves = |spheres: usize, beside: bool| {
+            let ball = |k: usize| json!({ "id": k.to_string(), "shape": { "sphere": { "radius": 0.5 } }, "at": [k, 0, 0.5], "support": k == 0, "material": "glass" });
+            let cube = |id: &str, z: f64| json!({ "id": id, "shape": { "box": { "size": [1, 1, 1] } }, "at": [-30, 0, z], "support": id == "floor" });
+            let mut scene = json!({
+                "format": "voussoir-scene/1",
+                "materials": { "glass": { "density": 2500, "young": 7e10, "poisson": 0.22 } },
+                "joints": { "default": { "friction": 0.5 } },
+                "blocks": (0..=spheres).map(ball).collect::<Vec<_>>(),
+            });
+            if beside {
+                let blocks = scene["blocks"].as_array_mut().unwrap();
+                blocks.extend([cube("floor", -0.5), cube("cube", 0.5)]);
+                scene["joints"]["overrides"] = json!([{ "blocks": ["floor", "cube"], "normal_stiffness": 1e9, "shear_stiffness": 1e9 }]);
+            }
+            let model = prepare(&read_str("test", scene.to_string()).unwrap().0).unwrap();
+            let joints = Joints::new(&model, Quadrature::Area).unwrap();
+            serve(&System::new(&model, &joints))
+        };
+        assert!(serves(HEAP, false) && serves(HEAP, true));
+        assert!(!serves(HEAP - 1, false) && !serves(HEAP - 1, true));
+    }
 }

@@ -9,7 +9,7 @@ use super::{
     super::{
         Fidelity, Progress, SimulationSettings, Stop,
         bodies::{Frictions, bodies},
-        rapier::{PREDICTION, Step, World},
+        rapier::World,
         units::Units,
     },
     Loads, ONSET, PATIENCE, REPORT, Stage, State, smooth, strengths, unknown_members,
@@ -107,20 +107,14 @@ impl Stage<'_> {
     ) -> Result<CarriedAlong, InputError> {
         let begin = Instant::now();
         let fidelity = self.settings.fidelity.unwrap_or(Fidelity::Fine);
-        let (per_unit, substeps) = fidelity.fineness();
-        let (dt, length) = (1.0 / per_unit, self.units.length);
+        let length = self.units.length;
         let speed =
             |m: &SupportWay| m.way.norm() / length + m.turn.norm() * self.bodies[m.support].reach;
         let fastest = ways.iter().map(speed).fold(0.0, f64::max);
         if fastest == 0.0 {
             return Err(InputError::at(JsonPath::root(), "no support moves"));
         }
-        let threads = self.settings.threads.max(1);
-        let step =
-            Step { dt, iterations: substeps, threads, prediction: PREDICTION, restitution: 0.0 };
-        let mut world = World::new(self.bodies, self.frictions, step).map_err(|text| {
-            InputError::at(JsonPath::root(), text).hint("give the block a simpler shape")
-        })?;
+        let (mut world, dt) = self.world(fidelity)?;
         let mut beside = self.at_rest(&mut world, dt);
         // The whole way, and time to fall or to come to rest after it.
         let way = fastest / pace + ONSET;

@@ -11,7 +11,7 @@ use super::{
     super::{
         Fidelity, Frame, Progress, SimulationSettings, Stop,
         bodies::{Frictions, bodies},
-        rapier::{PREDICTION, Step, World},
+        rapier::World,
         units::Units,
     },
     Beside, Loads, PATIENCE, Pulls, REPORT, Stage, State, strengths, unknown_members,
@@ -175,14 +175,8 @@ impl Stage<'_> {
     ) -> Result<Shaken, InputError> {
         let begin = Instant::now();
         let fidelity = self.settings.fidelity.unwrap_or(Fidelity::Fine);
-        let (per_unit, substeps) = fidelity.fineness();
-        let (dt, unit) = (1.0 / per_unit, self.units.time);
-        let threads = self.settings.threads.max(1);
-        let step =
-            Step { dt, iterations: substeps, threads, prediction: PREDICTION, restitution: 0.0 };
-        let mut world = World::new(self.bodies, self.frictions, step).map_err(|text| {
-            InputError::at(JsonPath::root(), text).hint("give the block a simpler shape")
-        })?;
+        let unit = self.units.time;
+        let (mut world, dt) = self.world(fidelity)?;
         let Beside { mut rolling, mut couples, mut springs } = self.at_rest(&mut world, dt);
         let start: Vec<_> = (0..self.bodies.len()).map(|i| world.pose(i)).collect();
         let down = self.model.assembly.gravity.try_normalize(0.0).unwrap_or(-Vector3::z());
@@ -282,7 +276,7 @@ impl Stage<'_> {
             blocks,
             fidelity,
             step: dt * unit,
-            substeps,
+            substeps: fidelity.fineness().1,
             steps,
             time: steps as f64 * dt * unit,
             stop,

@@ -95,15 +95,24 @@ pub(super) fn check(
         let place = backing::place();
         place.length("height", backing.height)?;
         match (&backing.masonry, backing.unit_weight) {
-            (None, weight) => place.length("unit_weight", weight.unwrap_or(f64::NAN))?,
-            (Some(name), Some(_)) => {
+            (None, Some(weight)) => place.length("unit_weight", weight)?,
+            (None, None) => {
                 return Err(place.error(
                     "unit_weight",
-                    format!("is that of the material {name:?}, of which the backing is"),
-                    "leave it out, or masonry",
+                    "is missing",
+                    "its weight per volume in N/m³ as fill, or \"masonry\", the name of its material",
                 ));
             }
-            (Some(_), None) => {}
+            (Some(name), _) => {
+                let given = [("unit_weight", backing.unit_weight), ("passive", backing.passive)];
+                if let Some((key, _)) = given.into_iter().find(|(_, value)| value.is_some()) {
+                    return Err(place.error(
+                        key,
+                        format!("is of backing as fill, and this is masonry of {name:?}"),
+                        format!("leave {key} out, or masonry"),
+                    ));
+                }
+            }
         }
         if let Some(k) = backing.passive.filter(|k| !(k.is_finite() && *k >= 0.0)) {
             return Err(place.error(

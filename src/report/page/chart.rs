@@ -213,74 +213,70 @@ fn angles(file: &ReposeFile) -> Option<Chart> {
     })
 }
 
+/// What one chart shows of what flows.
+struct Course {
+    title: &'static str,
+    axes: [&'static str; 2],
+    note: &'static str,
+    points: Vec<[f64; 2]>,
+}
+
+/// The courses of one run; always the same ones of a kind.
+fn courses(seen: &Seen) -> Vec<Course> {
+    match seen {
+        Seen::Drum { course, .. } => vec![Course {
+            title: "Slope of the surface as the drum turns",
+            axes: ["angle turned, degrees", "slope, degrees"],
+            note: "The mean is over all of it.",
+            points: course.clone(),
+        }],
+        Seen::Hopper { course, .. } => vec![Course {
+            title: "What has run out",
+            axes: ["time since the hole was opened, s", "kg"],
+            note: "The discharge is the slope between 0.1 and 0.5 of what was filled in.",
+            points: course.clone(),
+        }],
+        Seen::Shear { course, .. } => vec![
+            Course {
+                title: "Resistance to shear",
+                axes: ["way, m", "shear over normal force"],
+                note: "The residual is the mean of the last two fifths of the way.",
+                points: course.iter().map(|c| [c[0], c[1]]).collect(),
+            },
+            Course {
+                title: "Rise of the lid",
+                axes: ["way, m", "m"],
+                note: "Where it rises most steeply is the dilatancy.",
+                points: course.iter().map(|c| [c[0], c[2]]).collect(),
+            },
+        ],
+    }
+}
+
 /// The courses of what flows, a line for every seed.
 fn flows(file: &ReposeFile) -> Vec<Chart> {
-    let seen = || file.heaps.iter().filter_map(|h| Some((h.seed, h.seen.as_ref()?)));
-    // Title, axes and note of every chart of a kind, and what stands along and up in it.
-    type Course = (&'static str, [&'static str; 2], &'static str, fn(&Seen) -> Vec<[f64; 2]>);
-    let courses: &[Course] = match seen().next() {
-        None => return Vec::new(),
-        Some((_, Seen::Drum { .. })) => &[(
-            "Slope of the surface as the drum turns",
-            ["angle turned, degrees", "slope, degrees"],
-            "The mean is over all of it.",
-            |seen| match seen {
-                Seen::Drum { course, .. } => course.clone(),
-                _ => Vec::new(),
-            },
-        )],
-        Some((_, Seen::Hopper { .. })) => &[(
-            "What has run out",
-            ["time since the hole was opened, s", "kg"],
-            "The discharge is the slope between 0.1 and 0.5 of what was filled in.",
-            |seen| match seen {
-                Seen::Hopper { course, .. } => course.clone(),
-                _ => Vec::new(),
-            },
-        )],
-        Some((_, Seen::Shear { .. })) => &[
-            (
-                "Resistance to shear",
-                ["way, m", "shear over normal force"],
-                "The residual is the mean of the last two fifths of the way.",
-                |seen| match seen {
-                    Seen::Shear { course, .. } => course.iter().map(|c| [c[0], c[1]]).collect(),
-                    _ => Vec::new(),
-                },
-            ),
-            (
-                "Rise of the lid",
-                ["way, m", "m"],
-                "Where it rises most steeply is the dilatancy.",
-                |seen| match seen {
-                    Seen::Shear { course, .. } => course.iter().map(|c| [c[0], c[2]]).collect(),
-                    _ => Vec::new(),
-                },
-            ),
-        ],
-    };
-    let chart = |(title, [along, up], note, course): &Course| {
-        let line = |(seed, seen): (u64, &Seen)| {
-            let points = course(seen);
-            Series {
+    let mut charts: Vec<Chart> = Vec::new();
+    for (seed, seen) in file.heaps.iter().filter_map(|h| Some((h.seed, h.seen.as_ref()?))) {
+        for (k, course) in courses(seen).into_iter().enumerate() {
+            if k == charts.len() {
+                let [along, up] = course.axes;
+                charts.push(Chart {
+                    title: course.title.into(),
+                    x: Axis::new(along, false),
+                    y: Axis::new(up, false),
+                    note: course.note.into(),
+                    ..Chart::default()
+                });
+            }
+            let hint = |p: &[f64; 2]| format!("seed {seed}: {} at {}", short(p[1]), short(p[0]));
+            charts[k].series.push(Series {
                 name: format!("seed {seed}"),
                 line: true,
-                hints: points
-                    .iter()
-                    .map(|p| format!("seed {seed}: {} at {}", short(p[1]), short(p[0])))
-                    .collect(),
-                points: points.into_iter().map(|p| p.map(Some)).collect(),
+                hints: course.points.iter().map(hint).collect(),
+                points: course.points.into_iter().map(|p| p.map(Some)).collect(),
                 ..Series::default()
-            }
-        };
-        Chart {
-            title: (*title).into(),
-            x: Axis::new(*along, false),
-            y: Axis::new(*up, false),
-            series: seen().map(line).collect(),
-            note: (*note).into(),
-            ..Chart::default()
+            });
         }
-    };
-    courses.iter().map(chart).collect()
+    }
+    charts
 }

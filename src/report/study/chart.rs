@@ -14,7 +14,9 @@ use plotters::{
 #[error("no chart: {0}")]
 pub struct StudyChartError(String);
 
-const SIZE: (u32, u32) = (680, 420);
+const SIZE: (u32, u32) = (920, 420);
+/// Room on the right for the legend, pixels: over the drawing it would cover points.
+const LEGEND: u32 = 250;
 /// Colours that stay apart for people who do not see all of them (Okabe & Ito 2008), and two more.
 const COLOURS: [RGBColor; 10] = [
     RGBColor(0, 0, 0),
@@ -56,6 +58,7 @@ pub fn errors(scene: &str, points: &[StudyPoint]) -> Result<String, StudyChartEr
         area.fill(&WHITE).map_err(refused)?;
         let mut chart = ChartBuilder::on(&area)
             .margin(12)
+            .margin_right(LEGEND)
             .caption(scene, ("sans-serif", 18))
             .x_label_area_size(42)
             .y_label_area_size(70)
@@ -122,6 +125,7 @@ pub(super) fn dots(
         area.fill(&WHITE).map_err(refused)?;
         let mut chart = ChartBuilder::on(&area)
             .margin(12)
+            .margin_right(LEGEND)
             .caption(caption, ("sans-serif", 18))
             .x_label_area_size(42)
             .y_label_area_size(70)
@@ -167,6 +171,7 @@ pub fn profiles(points: &[StudyPoint], error: f64) -> Result<String, StudyChartE
         area.fill(&WHITE).map_err(refused)?;
         let mut chart = ChartBuilder::on(&area)
             .margin(12)
+            .margin_right(LEGEND)
             .caption(format!("scenes answered to {error:.0e}"), ("sans-serif", 18))
             .x_label_area_size(42)
             .y_label_area_size(60)
@@ -209,10 +214,11 @@ where
     X: plotters::coord::ranged1d::Ranged<ValueType = f64>,
     Y: plotters::coord::ranged1d::Ranged<ValueType = f64>,
 {
+    let (width, _) = chart.plotting_area().dim_in_pixel();
+    let beside = i32::try_from(width).map_err(refused)?;
     chart
         .configure_series_labels()
-        .position(SeriesLabelPosition::UpperRight)
-        .background_style(WHITE.mix(0.8))
+        .position(SeriesLabelPosition::Coordinate(beside, 0))
         .label_font(("sans-serif", 13).into_font())
         .draw()
         .map_err(refused)
