@@ -2,9 +2,10 @@
 
 use crate::study::{StudyMethod, StudyPoint, profile};
 use plotters::{
+    coord::Shift,
     prelude::{
-        ChartBuilder, Circle, EmptyElement, IntoDrawingArea, IntoLogRange, PathElement, RGBColor,
-        SVGBackend, SeriesLabelPosition, WHITE,
+        ChartBuilder, Circle, DrawingArea, IntoDrawingArea, IntoLogRange, PathElement, RGBColor,
+        SVGBackend, Text, WHITE,
     },
     style::{Color, IntoFont},
 };
@@ -77,6 +78,7 @@ pub fn errors(scene: &str, points: &[StudyPoint]) -> Result<String, StudyChartEr
             .light_line_style(WHITE.mix(0.0))
             .draw()
             .map_err(refused)?;
+        let mut names = Vec::new();
         for (k, method) in StudyMethod::ALL.into_iter().enumerate() {
             let mut line: Vec<(f64, f64)> =
                 own.iter().filter(|p| p.method == method).map(|p| (p.seconds, y(p))).collect();
@@ -87,16 +89,13 @@ pub fn errors(scene: &str, points: &[StudyPoint]) -> Result<String, StudyChartEr
             let colour = COLOURS[k % COLOURS.len()];
             chart
                 .draw_series([PathElement::new(line.clone(), colour.stroke_width(2))])
-                .map_err(refused)?
-                .label(method.label())
-                .legend(move |(x, y)| {
-                    PathElement::new(vec![(x, y), (x + 16, y)], colour.stroke_width(2))
-                });
+                .map_err(refused)?;
+            names.push((method.label().to_string(), colour));
             chart
                 .draw_series(line.into_iter().map(|p| Circle::new(p, 3, colour.filled())))
                 .map_err(refused)?;
         }
-        legend(&mut chart)?;
+        legend(&area, &names)?;
         area.present().map_err(refused)?;
     }
     Ok(text)
@@ -141,18 +140,16 @@ pub(super) fn dots(
             .light_line_style(WHITE.mix(0.0))
             .draw()
             .map_err(refused)?;
+        let mut names = Vec::new();
         for (k, (name, dots)) in series.iter().enumerate() {
             let colour = COLOURS[k % COLOURS.len()];
             let dots = dots.iter().filter(|d| d.0 > 0.0).map(|&(seconds, error)| {
                 Circle::new((seconds, error.clamp(DOT_FLOOR, 1.0)), 3, colour.filled())
             });
-            chart
-                .draw_series(dots)
-                .map_err(refused)?
-                .label(name)
-                .legend(move |at| EmptyElement::at(at) + Circle::new((8, 0), 3, colour.filled()));
+            chart.draw_series(dots).map_err(refused)?;
+            names.push((name.clone(), colour));
         }
-        legend(&mut chart)?;
+        legend(&area, &names)?;
         area.present().map_err(refused)?;
     }
     Ok(text)
@@ -186,40 +183,31 @@ pub fn profiles(points: &[StudyPoint], error: f64) -> Result<String, StudyChartE
             .light_line_style(WHITE.mix(0.0))
             .draw()
             .map_err(refused)?;
+        let mut names = Vec::new();
         for (k, (method, shares)) in profile(points, error, &ratios).into_iter().enumerate() {
             let colour = COLOURS[k % COLOURS.len()];
             let line: Vec<(f64, f64)> = ratios.iter().copied().zip(shares).collect();
-            chart
-                .draw_series([PathElement::new(line, colour.stroke_width(2))])
-                .map_err(refused)?
-                .label(method.label())
-                .legend(move |(x, y)| {
-                    PathElement::new(vec![(x, y), (x + 16, y)], colour.stroke_width(2))
-                });
+            chart.draw_series([PathElement::new(line, colour.stroke_width(2))]).map_err(refused)?;
+            names.push((method.label().to_string(), colour));
         }
-        legend(&mut chart)?;
+        legend(&area, &names)?;
         area.present().map_err(refused)?;
     }
     Ok(text)
 }
 
-type Chart<'a, 'b, X, Y> = plotters::chart::ChartContext<
-    'a,
-    SVGBackend<'b>,
-    plotters::coord::cartesian::Cartesian2d<X, Y>,
->;
-
-fn legend<'a, X, Y>(chart: &mut Chart<'a, 'a, X, Y>) -> Result<(), StudyChartError>
-where
-    X: plotters::coord::ranged1d::Ranged<ValueType = f64>,
-    Y: plotters::coord::ranged1d::Ranged<ValueType = f64>,
-{
-    let (width, _) = chart.plotting_area().dim_in_pixel();
-    let beside = i32::try_from(width).map_err(refused)?;
-    chart
-        .configure_series_labels()
-        .position(SeriesLabelPosition::Coordinate(beside, 0))
-        .label_font(("sans-serif", 13).into_font())
-        .draw()
-        .map_err(refused)
+/// Names with their colours, to the right of a chart.
+fn legend(
+    area: &DrawingArea<SVGBackend, Shift>,
+    names: &[(String, RGBColor)],
+) -> Result<(), StudyChartError> {
+    let left = i32::try_from(SIZE.0 - LEGEND).map_err(refused)? + 20;
+    let mut y = 50;
+    for (name, colour) in names {
+        let font = ("sans-serif", 13).into_font();
+        area.draw(&Circle::new((left, y + 6), 4, colour.filled())).map_err(refused)?;
+        area.draw(&Text::new(name.clone(), (left + 14, y), font)).map_err(refused)?;
+        y += 20;
+    }
+    Ok(())
 }
