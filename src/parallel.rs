@@ -17,6 +17,19 @@ use std::{
 /// touched costs nothing.
 const STACK: usize = 16 << 20;
 
+/// How many of so many threads (0 for as many as there are processors) are left for the inside of
+/// each of so many pieces of work: at least one.
+pub fn inside(threads: usize, pieces: usize) -> usize {
+    (wanted(threads) / pieces.max(1)).max(1)
+}
+
+fn wanted(threads: usize) -> usize {
+    match threads {
+        0 => thread::available_parallelism().map_or(1, |n| n.get()),
+        n => n,
+    }
+}
+
 /// Does `work` for every item on so many threads (0 for as many as there are processors); the first
 /// error ends it.
 ///
@@ -27,10 +40,7 @@ pub fn for_each<T: Sync, E: Send>(
     items: &[T],
     work: impl Fn(&T) -> Result<(), E> + Sync,
 ) -> io::Result<Result<(), E>> {
-    let threads = match threads {
-        0 => thread::available_parallelism().map_or(1, |n| n.get()),
-        n => n,
-    };
+    let threads = wanted(threads);
     let (next, stop, failed) = (AtomicUsize::new(0), AtomicBool::new(false), Mutex::new(None));
     thread::scope(|scope| {
         for _ in 0..threads.min(items.len()) {

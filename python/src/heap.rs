@@ -11,7 +11,7 @@ use std::ops::ControlFlow;
 use voussoir::{
     analysis::{
         Control, Law,
-        repose::{Heap, grown, margin},
+        repose::{Growing, Heap, grown, margin},
     },
     error::{InputError, JsonPath},
     parallel,
@@ -51,7 +51,8 @@ pub fn heaps(
         .raise(py)
     })?;
     wait::run(py, progress, move |watch| {
-        let one = |seed: &u64| made(&protocol, *seed, skip_margin, keep_all, watch);
+        let inside = parallel::inside(threads, seeds.len());
+        let one = |seed: &u64| made(&protocol, *seed, skip_margin, keep_all, inside, watch);
         let done = parallel::try_map(threads, &seeds, one).map_err(Trouble::other)??;
         let (results, heaps): (Vec<_>, Vec<_>) = done.into_iter().unzip();
         Ok(Heaps { file: ReposeFile::new(&protocol, results), heaps })
@@ -63,11 +64,12 @@ fn made(
     seed: u64,
     skip_margin: bool,
     keep_all: bool,
+    threads: usize,
     watch: &Watch,
 ) -> Result<(HeapResult, Heap), Trouble> {
     let control = Control { law: Law::Associative, keep_all, deadline: watch.deadline(None) };
     let statics = (!skip_margin).then_some(&control);
-    let heap = grown(protocol, None, seed, statics, &mut |flow| {
+    let heap = grown(protocol, seed, &Growing { own: None, statics, threads }, &mut |flow| {
         watch.tell(flow.time, 0.0, || {
             format!(
                 "seed {seed}, stage {}: {:.0} √(d/g), {:.1e} m g d a grain",

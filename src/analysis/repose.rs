@@ -141,22 +141,32 @@ pub fn heap(
     seed: u64,
     watch: &mut dyn FnMut(&Flow) -> ControlFlow<()>,
 ) -> Result<Heap, InputError> {
-    grown(protocol, None, seed, None, watch)
+    grown(protocol, seed, &Growing::default(), watch)
 }
 
-/// The same with grains of one's own, which begin where they lie, and a word of statics: with
-/// `statics` a heap at rest is asked whether forces exist that hold it as it lies, and where there
-/// are none it settles on with finer steps.
+/// How a heap is made, beside what its protocol says.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Growing<'a> {
+    /// Grains of one's own, which begin where they lie.
+    pub own: Option<&'a [BlockSpec]>,
+    /// A word of statics: a heap at rest is asked whether forces exist that hold it as it lies, and
+    /// where there are none it settles on with finer steps.
+    pub statics: Option<&'a Control>,
+    /// Threads of the engine; 0 is one. The heap is the same on any number of them.
+    pub threads: usize,
+}
+
+/// The same, made so.
 ///
 /// # Errors
 /// As [`heap`]; a grain lies outside what holds it.
 pub fn grown(
     protocol: &Protocol,
-    own: Option<&[BlockSpec]>,
     seed: u64,
-    statics: Option<&Control>,
+    growing: &Growing,
     watch: &mut dyn FnMut(&Flow) -> ControlFlow<()>,
 ) -> Result<Heap, InputError> {
+    let Growing { own, statics, threads } = *growing;
     let deposit = match own {
         Some(own) => filled(protocol, own, seed)?,
         None => deposit(protocol, seed)?,
@@ -210,6 +220,7 @@ pub fn grown(
         lid,
         finer,
         settled: protocol.kind.leaves_a_slope(),
+        threads,
     };
     let mut look = |moment: &Moment| {
         recorder.look(moment);

@@ -12,7 +12,7 @@ use std::ops::ControlFlow;
 use voussoir::{
     analysis::{
         Control, Law, Tilted,
-        repose::{Heap, Margin, grown, margin, profile},
+        repose::{Growing, Heap, Margin, grown, margin, profile},
     },
     deadline::Deadline,
     dynamics::granular::Flow,
@@ -90,6 +90,7 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
     // Cut off by the time limit, a heap or a margin is an answer, but not the one that the next run
     // wants.
     let in_time = || !deadline.is_over();
+    let inside = parallel::inside(args.threads.into(), outputs.len());
     let one = |(k, outputs): &(usize, Outputs)| -> anyhow::Result<(HeapResult, Option<View>)> {
         let seed = args.seed + *k as u64;
         let control = Control { law: Law::Associative, keep_all: args.common.keep_all, deadline };
@@ -113,7 +114,8 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
                 if in_time() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
             };
             let statics = (!args.skip_margin).then_some(&control);
-            let heap = grown(&protocol, own.as_deref(), seed, statics, &mut watch)?;
+            let growing = Growing { own: own.as_deref(), statics, threads: inside };
+            let heap = grown(&protocol, seed, &growing, &mut watch)?;
             if kept.is_some() && in_time() {
                 keep(&Piece::Heap(Box::new(heap.clone())))?;
             }

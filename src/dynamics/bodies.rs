@@ -277,6 +277,17 @@ pub(super) struct Resistance {
     pub closed: f64,
 }
 
+/// How the friction of a pair follows from its two bodies, one of which is free.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Combined {
+    /// A free body: this against its like.
+    Own(f64),
+    /// A support: this against whatever is free, no more than that has itself.
+    AtMost(f64),
+    /// A support: this against whatever is free, more than that has itself.
+    AtLeast(f64),
+}
+
 /// Stands for friction without limit. Larger: friction impulses of resting contacts overflow their
 /// float error. Smaller: steep joints without sliding could slide.
 const UNLIMITED: f64 = 1e4;
@@ -332,6 +343,30 @@ impl<'a> Frictions<'a> {
             })
         };
         self.known.get(&pair).copied().unwrap_or_else(met)
+    }
+
+    /// By body: what says the friction of every pair that may meet without a look at the pair.
+    /// `None` unless all that is free are loose spheres of one kind, of which no contact is known.
+    pub fn combined(&self, bodies: &[Body]) -> Option<Vec<Combined>> {
+        let one_ball = |b: &Body| {
+            matches!(b.shapes.as_slice(), [Shape { form: Form::Ball { .. }, role: Role::Part, .. }])
+        };
+        let free: Vec<usize> = (0..bodies.len()).filter(|&i| !bodies[i].support).collect();
+        let &first = free.first()?;
+        let alike = |&i: &usize| {
+            one_ball(&bodies[i]) && self.rules.kinds.get(i) == self.rules.kinds.get(first)
+        };
+        let known = !(self.known.is_empty() && self.apart.is_empty());
+        if known || !self.assembly.joints.by_blocks.is_empty() || !free.iter().all(alike) {
+            return None;
+        }
+        let own = self.between(first, first).friction;
+        let one = |i: usize| match self.between(first, i).friction {
+            _ if !bodies[i].support => Combined::Own(own),
+            friction if friction <= own => Combined::AtMost(friction),
+            friction => Combined::AtLeast(friction),
+        };
+        Some((0..bodies.len()).map(one).collect())
     }
 
     /// Whether any joint resists rolling.

@@ -36,6 +36,11 @@ const SUBSTEPS: usize = 6;
 const PREDICTION: f64 = 0.05;
 /// The same where grains have faces. Larger: neighbours round a corner are seen at wrong normals.
 const PREDICTION_FACES: f64 = 0.02;
+/// While they flow, contacts of spheres are found anew when the two have moved by this × d against
+/// each other. Larger: no faster (0.005, 0.02). Smaller: time. Meanwhile normals stand still, and
+/// with them grains that are about to roll off others: from the look on at which they seem to rest
+/// every contact is found anew in every step.
+const RECYCLED: f64 = 0.001;
 /// At the end steps are finer by this, and contacts stiffer by its square, so that grains that
 /// touch overlap by a sixth of what they did: the statics takes them as they lie. Smaller: contacts
 /// are lost in the overlaps. Larger: time.
@@ -89,6 +94,8 @@ pub struct Course {
     pub finer: f64,
     /// Whether grains settle once more with finer steps at the end.
     pub settled: bool,
+    /// Threads of the engine; the course is the same on any number of them.
+    pub threads: usize,
 }
 
 impl Default for Course {
@@ -102,6 +109,7 @@ impl Default for Course {
             lid: None,
             finer: 1.0,
             settled: true,
+            threads: 1,
         }
     }
 }
@@ -196,8 +204,13 @@ pub fn flow(
     let dt = natural / STEPS / course.finer / units.time;
     let round = assembly.free().all(|i| assembly.blocks[i].solid.is_round());
     let prediction = if round { PREDICTION } else { PREDICTION_FACES } * diameter / units.length;
-    let step =
-        Step { dt, iterations: SUBSTEPS, threads: 1, prediction, restitution: course.restitution };
+    let step = Step {
+        dt,
+        iterations: SUBSTEPS,
+        threads: course.threads.max(1),
+        prediction,
+        restitution: course.restitution,
+    };
     let mut world = World::new(&bodies, &frictions, step)
         .map_err(|text| InputError::at(Default::default(), text))?;
     course.lid.into_iter().for_each(|lid| world.guide(lid));
@@ -217,6 +230,7 @@ pub fn flow(
             elapsed: 0.0,
             resting: 0.0,
             energy: 0.0,
+            recycled: RECYCLED * diameter / units.length,
             dt: natural / STEPS / course.finer,
             natural,
             rolling: Rolling::default(),
@@ -244,6 +258,7 @@ pub fn flow(
     }
     let mut rounds = 0;
     let mut finer = dt;
+    run.recycled = 0.0;
     while rested && course.settled && rounds < ROUNDS {
         rounds += 1;
         finer /= FINER;
@@ -287,6 +302,8 @@ struct Flowing<'a> {
     elapsed: f64,
     resting: f64,
     energy: f64,
+    /// [`RECYCLED`] while grains flow, in the engine's unit of length.
+    recycled: f64,
     /// s.
     dt: f64,
     /// √(d/g), s.
@@ -526,5 +543,6 @@ impl Flowing<'_> {
         } else {
             0.0
         };
+        self.world.recycle(if self.resting > 0.0 { 0.0 } else { self.recycled });
     }
 }

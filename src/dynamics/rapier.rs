@@ -9,9 +9,11 @@
 //!   speed;
 //! * friction of a contact patch as a whole (`FrictionModel::Simplified`: 0.06 % on static
 //!   friction; friction point by point underestimates it by up to 14 %), its coefficient set pair
-//!   by pair through a hook.
+//!   by pair through a hook; loose spheres of one kind need none ([`Frictions::combined`]), and
+//!   alone may take contacts over from step to step while they hardly move
+//!   ([`World::recycle`]; pairs with a hook are always found anew).
 
-use super::bodies::{Body, Form, Frictions, Role};
+use super::bodies::{Body, Combined, Form, Frictions, Role};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use rapier3d::{
     math::{Pose, Rotation, Vector},
@@ -117,6 +119,7 @@ impl<'a> World<'a> {
     /// A world; the error says what the engine does not take.
     pub fn new(list: &[Body], frictions: &'a Frictions<'a>, step: Step) -> Result<Self, String> {
         let softness = softness(step);
+        let combined = frictions.combined(list);
         let parameters = IntegrationParameters {
             dt: step.dt,
             num_solver_iterations: step.iterations,
@@ -153,12 +156,19 @@ impl<'a> World<'a> {
             healthy: true,
         };
         for (index, body) in list.iter().enumerate() {
-            world.insert(index, body, step.restitution)?;
+            let combined = combined.as_ref().map(|list| list[index]);
+            world.insert(index, body, step.restitution, combined)?;
         }
         Ok(world)
     }
 
-    fn insert(&mut self, index: usize, body: &Body, restitution: f64) -> Result<(), String> {
+    fn insert(
+        &mut self,
+        index: usize,
+        body: &Body,
+        restitution: f64,
+        combined: Option<Combined>,
+    ) -> Result<(), String> {
         let pose = Pose::from_parts(vector(body.center), Rotation::IDENTITY);
         let builder =
             if body.support { RigidBodyBuilder::fixed() } else { RigidBodyBuilder::dynamic() };
@@ -184,11 +194,21 @@ impl<'a> World<'a> {
                     ColliderBuilder::convex_mesh(points, triangles).ok_or_else(refused)?
                 }
             };
-            let hooks = ActiveHooks::FILTER_CONTACT_PAIRS | ActiveHooks::MODIFY_SOLVER_CONTACTS;
+            let asked = ActiveHooks::FILTER_CONTACT_PAIRS | ActiveHooks::MODIFY_SOLVER_CONTACTS;
+            let hooks = if combined.is_some() { ActiveHooks::empty() } else { asked };
+            // Of two rules the engine follows the one that stands later here: average, least,
+            // greatest.
+            let (friction, rule) = match combined {
+                None => (0.0, CoefficientCombineRule::Average),
+                Some(Combined::Own(friction)) => (friction, CoefficientCombineRule::Average),
+                Some(Combined::AtMost(friction)) => (friction, CoefficientCombineRule::Min),
+                Some(Combined::AtLeast(friction)) => (friction, CoefficientCombineRule::Max),
+            };
             let collider = collider
                 .density(0.0)
                 .restitution(restitution)
-                .friction(0.0)
+                .friction(friction)
+                .friction_combine_rule(rule)
                 .contact_skin(shape.skin)
                 .active_hooks(hooks)
                 .user_data(self.hooks.shapes.len() as u128);
@@ -226,6 +246,13 @@ impl<'a> World<'a> {
         self.parameters.num_solver_iterations = step.iterations;
         self.parameters.contact_softness = softness(step);
         self.parameters.static_contact_softness = softness(step);
+    }
+
+    /// From now on contacts of loose spheres of one kind are not found anew while the two have
+    /// moved by less than this against each other, in the engine's unit of length; 0: always anew.
+    pub fn recycle(&mut self, distance: f64) {
+        self.parameters.contact_recycling = distance > 0.0;
+        self.parameters.normalized_contact_recycle_distance = distance;
     }
 
     /// Takes a body away; nothing may be asked of it but its last pose.

@@ -8,7 +8,7 @@ use std::ops::ControlFlow;
 use voussoir::{
     analysis::{
         Control, Law, assess,
-        repose::{self, Heap, seen::Seen},
+        repose::{self, Growing, Heap, seen::Seen},
         stability::held,
     },
     assembly::{self, Solid},
@@ -19,12 +19,16 @@ use voussoir::{
         heaps::{HeapResult, ReposeFile},
         page,
     },
-    scene::{GrainKind, Protocol, ProtocolKind, Scene, Sizes},
+    scene::{BlockSpec, GrainKind, Protocol, ProtocolKind, Scene, Sizes},
     verdict::Verdict,
 };
 
 fn run(protocol: &Protocol, seed: u64) -> Heap {
     repose::heap(protocol, seed, &mut |_| ControlFlow::Continue(())).unwrap()
+}
+
+fn from(own: &[BlockSpec]) -> Growing<'_> {
+    Growing { own: Some(own), ..Growing::default() }
 }
 
 /// The charts of the page: what was seen is drawn as it was seen, a line a seed.
@@ -182,6 +186,19 @@ fn spheres_that_are_taken_for_supports_are_told() {
     assert!(read.findings.iter().any(|f| said(&f.text)), "{:?}", read.findings);
 }
 
+/// A heap is made by all threads, and is the same to the last bit on any number of them.
+#[test]
+fn the_number_of_threads_changes_nothing() {
+    let protocol = Protocol { grains: 300, size: Some([8.0, 6.0]), ..Protocol::default() };
+    let heaps = [1, 2, 3].map(|threads| {
+        let growing = Growing { threads, ..Growing::default() };
+        let mut go_on = |_: &_| ControlFlow::Continue(());
+        repose::grown(&protocol, 1, &growing, &mut go_on).unwrap()
+    });
+    let [one, two, three] = heaps.map(|h| (h.time, h.grains, h.scene));
+    assert!(one == two && two == three);
+}
+
 /// Grains that begin where a heap came to rest stay there; what lies outside is refused.
 #[test]
 fn a_packing_of_ones_own_is_where_it_starts() {
@@ -190,7 +207,7 @@ fn a_packing_of_ones_own_is_where_it_starts() {
     let heap = run(&protocol, 3);
     let own: Vec<_> = heap.scene.blocks.iter().filter(|b| !b.support).cloned().collect();
     let mut go_on = |_: &_| ControlFlow::Continue(());
-    let again = repose::grown(&protocol, Some(&own), 3, None, &mut go_on).unwrap();
+    let again = repose::grown(&protocol, 3, &from(&own), &mut go_on).unwrap();
     assert!(again.rested && again.grains == [own.len(), 0], "{:?}", again.grains);
     let [before, after] = [&heap, &again].map(|h| assembly::resolve(&h.scene).unwrap());
     for i in before.free() {
@@ -200,10 +217,9 @@ fn a_packing_of_ones_own_is_where_it_starts() {
     }
     let mut outside = own.clone();
     outside[0].at[0] = 1.0;
-    let said =
-        repose::grown(&protocol, Some(&outside), 3, None, &mut go_on).unwrap_err().to_string();
+    let said = repose::grown(&protocol, 3, &from(&outside), &mut go_on).unwrap_err().to_string();
     assert!(said.contains("lies outside the box"), "{said}");
-    assert!(repose::grown(&protocol, Some(&[]), 3, None, &mut go_on).is_err());
+    assert!(repose::grown(&protocol, 3, &from(&[]), &mut go_on).is_err());
 }
 
 /// A grading curve gives the masses that it says, and the box knows how high they fill it.
@@ -314,7 +330,8 @@ fn a_heap_at_rest_is_confirmed_by_statics() {
             Protocol { grain, grains: 40, size: Some([6.0, 4.0]), ..Protocol::default() };
         let control = Control { law: Law::Associative, ..Control::default() };
         let mut go_on = |_: &_| ControlFlow::Continue(());
-        let heap = repose::grown(&protocol, None, 3, Some(&control), &mut go_on).unwrap();
+        let growing = Growing { statics: Some(&control), ..Growing::default() };
+        let heap = repose::grown(&protocol, 3, &growing, &mut go_on).unwrap();
         let statics = heap.statics.clone().expect("asked");
         assert!((1..=ROUNDS).contains(&statics.rounds));
         let (model, _) = held(&model(&heap.scene));

@@ -39,9 +39,9 @@ pub struct Repose {
     /// The first seed (--question repose).
     #[arg(long, value_name = "SEED", default_value_t = 1, value_parser = clap::value_parser!(u64).range(..=u64::MAX / 2))]
     pub seed: u64,
-    /// Heaps made at the same time; 0 for as many as there are processors. The answer does not
-    /// depend on it (--question repose).
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    /// Threads, shared out among the heaps and, where they are fewer, inside each; 0 for as many as
+    /// there are processors. The answer does not depend on it (--question repose).
+    #[arg(long, value_name = "N", default_value_t = 0)]
     pub threads: u16,
     /// Do not ask for the static margin of the heaps (--question repose).
     #[arg(long)]
