@@ -3,7 +3,7 @@
 
 mod dissection;
 
-use dissection::dissected;
+pub use dissection::dissected;
 use faer::{
     Conj, MatMut, Par, Side,
     dyn_stack::{MemBuffer, MemStack, StackReq},

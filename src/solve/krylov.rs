@@ -12,9 +12,15 @@ const KEPT: usize = 80;
 /// A matrix by rows of blocks, columns ascending.
 #[derive(Clone, Debug)]
 pub struct Blocks {
-    starts: Vec<usize>,
-    columns: Vec<usize>,
-    values: Vec<Matrix6<f64>>,
+    pub(super) starts: Vec<usize>,
+    pub(super) columns: Vec<usize>,
+    pub(super) values: Vec<Matrix6<f64>>,
+}
+
+/// Factors that solve a matrix nearly.
+pub trait Factors {
+    /// Solves with the factors, in place.
+    fn solve(&self, x: &mut [Vector6<f64>]);
 }
 
 /// Incomplete factors on the pattern of the matrix.
@@ -74,7 +80,7 @@ impl Blocks {
         all
     }
 
-    fn place(&self, row: usize, column: usize) -> usize {
+    pub(super) fn place(&self, row: usize, column: usize) -> usize {
         let range = self.row(row);
         range.start + self.columns[range].partition_point(|&c| c < column)
     }
@@ -118,7 +124,7 @@ impl Blocks {
     /// nothing where that is not enough.
     pub fn solve(
         &self,
-        factors: &Incomplete,
+        factors: &dyn Factors,
         right: &[Vector6<f64>],
         share: f64,
         most: usize,
@@ -143,7 +149,7 @@ impl Blocks {
     /// One round: what to add, and how many products it took.
     fn cycle(
         &self,
-        factors: &Incomplete,
+        factors: &dyn Factors,
         left: &[Vector6<f64>],
         enough: f64,
         most: usize,
@@ -202,8 +208,7 @@ impl Blocks {
     }
 }
 
-impl Incomplete {
-    /// Solves with the factors, in place.
+impl Factors for Incomplete {
     fn solve(&self, x: &mut [Vector6<f64>]) {
         let f = &self.factors;
         for i in 0..x.len() {

@@ -131,7 +131,8 @@ impl Grain {
         let most = |at: S| (depth - at).times(slope);
         let mut corners: Vec<Corner<S>> = Vec::with_capacity(tried.len() + 2);
         for (k, &(at, e)) in tried.iter().enumerate() {
-            if k > 0 {
+            // Rounded, a stretch has no corner at its limit.
+            if k > 0 && !matches!(friction, Friction::Rounded(_)) {
                 let (before, first) = tried[k - 1];
                 for share in crossings((before, first), (at, e), depth, slope) {
                     let place = before + (at - before) * share;

@@ -4,10 +4,13 @@
 use super::number::Number;
 
 /// How friction answers a small motion.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Friction {
     /// By Coulomb's law.
     Follows,
+    /// By a law that turns from sticking to sliding by and by, the more sharply the greater this power: a
+    /// shear that would be `x` of its limit is `x / (1 + xᵖ)^(1/p)` of it. A way to Coulomb's law.
+    Rounded(f64),
     /// As it is: what sticks goes on sticking, what slides goes on at its limit, which stays.
     Stays,
 }
@@ -79,6 +82,11 @@ pub fn cut<S: Number>(tried: [S; 2], most: S, friction: Friction) -> Option<[S; 
     let square = tried[0] * tried[0] + tried[1] * tried[1];
     let (size, limit) = (square.value().sqrt(), most.value());
     match friction {
+        Friction::Rounded(_) if limit <= 0.0 => Some(tried.map(|_| S::of(0.0))),
+        Friction::Rounded(power) => {
+            let share = rounded(square.sqrt() / most, power);
+            Some(tried.map(|t| t * share))
+        }
         Friction::Follows if size > limit => {
             let share = most / square.sqrt();
             Some(tried.map(|t| t * share))
@@ -86,4 +94,18 @@ pub fn cut<S: Number>(tried: [S; 2], most: S, friction: Friction) -> Option<[S; 
         Friction::Stays if size >= AT_LIMIT * limit => Some(tried.map(S::held)),
         _ => None,
     }
+}
+
+/// `(1 + xᵖ)^(−1/p)`, and how it changes.
+fn rounded<S: Number>(x: S, power: f64) -> S {
+    let v = x.value();
+    if v <= 0.0 {
+        return S::of(1.0);
+    }
+    // Of the two powers the one that does not overflow.
+    let small = v.min(1.0 / v).powf(power);
+    let part = (1.0 + small).powf(-1.0 / power);
+    let share = if v > 1.0 { part / v } else { part };
+    let slope = if v > 1.0 { 1.0 } else { small } * -share / (v * (1.0 + small));
+    x.mapped(share, slope)
 }

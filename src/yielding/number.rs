@@ -19,6 +19,9 @@ pub trait Number:
     fn value(self) -> f64;
     /// The square root; at zero without a slope.
     fn sqrt(self) -> Self;
+    /// A function of it that has this value and this slope there.
+    #[must_use]
+    fn mapped(self, value: f64, slope: f64) -> Self;
 
     /// The same number without slopes.
     #[must_use]
@@ -42,6 +45,9 @@ impl Number for f64 {
     }
     fn sqrt(self) -> Self {
         f64::sqrt(self)
+    }
+    fn mapped(self, value: f64, _: f64) -> Self {
+        value
     }
 }
 
@@ -121,6 +127,9 @@ impl Number for Dual {
     }
     fn value(self) -> f64 {
         self.value
+    }
+    fn mapped(self, value: f64, slope: f64) -> Self {
+        Self { value, slopes: self.slopes.map(|s| s * slope) }
     }
     fn sqrt(self) -> Self {
         let root = self.value.sqrt();

@@ -89,6 +89,7 @@ impl<'a> System<'a> {
         loads: &[Wrench],
         displaced: &[Rate],
         glue: f64,
+        friction: Friction,
     ) -> [Vec<f64>; 2] {
         let assembly = &self.model.assembly;
         let mut left: Vec<Vector6<f64>> = self.free.iter().map(|&i| six(&loads[i])).collect();
@@ -97,7 +98,7 @@ impl<'a> System<'a> {
             let motion = joint.motion(assembly, displaced);
             let mut force = Vector6::zeros();
             if glue < 1.0 {
-                let all = joint.respond(&state.past[k], &motion, Friction::Follows);
+                let all = joint.respond(&state.past[k], &motion, friction);
                 let parts = all.force.iter().chain(&all.moment);
                 parts.enumerate().for_each(|(i, v)| force[i] = v * (1.0 - glue));
             }

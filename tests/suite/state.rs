@@ -292,6 +292,25 @@ fn a_heap_comes_to_rest() {
     }
 }
 
+/// A tetrahedron of close-packed spheres on its fixed lowest layer, whose contacts stick and slide by
+/// turns under steps that follow Coulomb's law alone: the state is found and proved.
+#[test]
+fn a_heap_that_sticks_and_slides_by_turns_comes_to_rest() {
+    let (r, layers) = (0.01, 18);
+    let mut scene = pyramid(2, 0.5);
+    let mut blocks = Vec::new();
+    for l in 0..layers {
+        for (i, j) in (0..layers - l).flat_map(|i| (0..layers - l - i).map(move |j| (i, j))) {
+            let (a, b, c) = (i as f64, j as f64, l as f64);
+            let at = [2.0 * a + b + c, (3.0 * b + c) / 3.0_f64.sqrt(), c * (8.0_f64 / 3.0).sqrt()];
+            blocks.push(json!({ "id": format!("{l}/{i}/{j}"), "shape": { "sphere": { "radius": r } }, "at": at.map(|x| r * x), "support": l == 0, "material": "glass" }));
+        }
+    }
+    scene["blocks"] = blocks.into();
+    let a = state(scene);
+    assert!(a.residuals.unwrap().worst() < 1e-10, "{:?}", a.residuals);
+}
+
 /// A block on a floor far away changes nothing of a heap.
 #[test]
 fn what_stands_beside_a_heap_changes_nothing() {

@@ -1,7 +1,9 @@
-//! Equations of heaps by incomplete factors: complete ones of 1,000 spheres have millions of entries.
+//! Equations of heaps by incomplete factors, and where those do not serve by complete ones of single
+//! precision, which are kept as long as they do.
 
+use super::newton::Equations;
 use crate::{
-    solve::{Blocks, Pattern},
+    solve::{Blocks, Fronts, Pattern},
     yielding::{JointKind, System},
 };
 use nalgebra::Vector6;
@@ -14,6 +16,12 @@ const HEAP: usize = 200;
 pub const CLOSELY: f64 = 1e-4;
 /// Most products of a solution: where it takes more, it takes thousands.
 const PRODUCTS: usize = 240;
+/// Most products where complete factors are at hand else. More: time that a factorisation takes.
+const SOME: usize = 50;
+/// Most products with factors of a step before.
+const FEW: usize = 15;
+/// What a solution with those leaves of the right side.
+const BY_OLD: f64 = 0.03;
 
 /// Whether there is a heap, whatever else stands beside it, and they are tried.
 pub fn serve(system: &System) -> bool {
@@ -41,9 +49,42 @@ pub fn solved(
 ) -> Option<Vec<f64>> {
     let matrix = Blocks::new(pattern, lower, upper);
     let factors = matrix.incomplete()?;
-    let right: Vec<Vector6<f64>> = right.chunks_exact(6).map(Vector6::from_column_slice).collect();
-    let x = matrix.solve(&factors, &right, share, PRODUCTS)?;
-    Some(x.iter().flat_map(|v| v.iter().copied()).collect())
+    matrix.solve(&factors, &six(right), share, PRODUCTS).map(flat)
+}
+
+/// The same; by complete factors where incomplete ones do not serve soon, and by those of before as long
+/// as they do.
+pub fn completed(
+    pattern: &Pattern,
+    fronts: &mut Option<Fronts>,
+    equations: &Equations,
+    share: f64,
+) -> Option<Vec<f64>> {
+    let matrix = Blocks::new(pattern, &equations.lower, &equations.upper);
+    let right = six(&equations.right);
+    let x = match fronts.as_ref().filter(|f| f.ready) {
+        Some(old) => matrix.solve(old, &right, share.max(BY_OLD), FEW),
+        None => matrix.incomplete().and_then(|factors| matrix.solve(&factors, &right, share, SOME)),
+    };
+    if let Some(x) = x {
+        return Some(flat(x));
+    }
+    if fronts.is_none() {
+        *fronts = Fronts::new(pattern, &matrix);
+    }
+    let fronts = fronts.as_mut()?;
+    if !fronts.factor(&matrix) {
+        return None;
+    }
+    matrix.solve(fronts, &right, share, SOME).map(flat)
+}
+
+fn six(list: &[f64]) -> Vec<Vector6<f64>> {
+    list.chunks_exact(6).map(Vector6::from_column_slice).collect()
+}
+
+fn flat(list: Vec<Vector6<f64>>) -> Vec<f64> {
+    list.iter().flat_map(|v| v.iter().copied()).collect()
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@ use super::incomplete;
 use crate::{
     analysis::Control,
     assembly::Wrench,
-    solve::{Cholesky, Lu},
+    solve::{Cholesky, Fronts, Lu},
     verdict::Rate,
     yielding::{State, System, law::Friction},
 };
@@ -48,6 +48,7 @@ pub struct Newton<'a> {
     part: Vec<usize>,
     lu: Option<Lu>,
     cholesky: Option<Cholesky>,
+    pub(super) fronts: Option<Fronts>,
     /// Whether equations are solved with incomplete factors where that is enough.
     pub(super) heap: bool,
     /// Steps that it took so far.
@@ -63,6 +64,7 @@ impl<'a> Newton<'a> {
             part: system.parts(),
             lu,
             cholesky,
+            fronts: None,
             heap: incomplete::serve(system),
             steps: 0,
         }
@@ -70,7 +72,7 @@ impl<'a> Newton<'a> {
 
     /// Of these displacements those that are nearest to balance.
     pub fn nearest(&self, state: &State, loads: &[Wrench], from: Vec<Vec<Rate>>) -> Vec<Rate> {
-        let size = |q: &Vec<Rate>| self.residual(state, loads, q, 0.0).1;
+        let size = |q: &Vec<Rate>| self.residual(state, loads, q, 0.0, Friction::Follows).1;
         let best = from.into_iter().map(|q| (size(&q), q));
         best.min_by(|a, b| a.0.total_cmp(&b.0)).map_or_else(|| state.displaced.clone(), |b| b.1)
     }
@@ -129,7 +131,7 @@ impl<'a> Newton<'a> {
         glue: f64,
         control: &Control,
     ) -> Option<Vec<Rate>> {
-        let (mut left, mut size) = self.residual(state, loads, &displaced, glue);
+        let (mut left, mut size) = self.residual(state, loads, &displaced, glue, Friction::Follows);
         let mut worse = 0;
         for _ in 0..STEPS {
             if control.deadline.is_over() {
@@ -146,7 +148,7 @@ impl<'a> Newton<'a> {
                 let mut share = 1.0;
                 for _ in 0..HALVINGS {
                     let next = self.moved(&displaced, &way, share);
-                    let (r, new) = self.residual(state, loads, &next, glue);
+                    let (r, new) = self.residual(state, loads, &next, glue, Friction::Follows);
                     if best.as_ref().is_none_or(|b| new < b.0) {
                         best = Some((new, next.clone(), r.clone()));
                     }
@@ -185,8 +187,9 @@ impl<'a> Newton<'a> {
         loads: &[Wrench],
         displaced: &[Rate],
         glue: f64,
+        friction: Friction,
     ) -> (Vec<f64>, f64) {
-        let [left, passing] = self.system.left(state, loads, displaced, glue);
+        let [left, passing] = self.system.left(state, loads, displaced, glue, friction);
         let mut sums = vec![[0.0; 2]; self.part.len()];
         for (k, d) in self.system.diagonal.iter().enumerate() {
             let sum = &mut sums[self.part[k / 6]];
@@ -217,7 +220,7 @@ impl<'a> Newton<'a> {
     ) -> Option<Vec<f64>> {
         let pattern = &self.system.pattern;
         let Equations { unit, lower, upper, right: mut x } =
-            self.equations(state, displaced, glue, left, shift);
+            self.equations(state, displaced, glue, Friction::Follows, left, shift);
         if self.heap
             && let Some(x) = incomplete::solved(pattern, &lower, &upper, &x, incomplete::CLOSELY)
         {
@@ -254,10 +257,11 @@ impl<'a> Newton<'a> {
         state: &State,
         displaced: &[Rate],
         glue: f64,
+        friction: Friction,
         left: &[f64],
         shift: f64,
     ) -> Equations {
-        let tangent = self.system.tangent(state, displaced, glue, Friction::Follows);
+        let tangent = self.system.tangent(state, displaced, glue, friction);
         let unit: Vec<f64> = self.system.diagonal.iter().map(|d| d.sqrt()).collect();
         let [lower, upper] = self.system.values(&tangent, &unit, shift);
         let right = left.iter().zip(&unit).map(|(r, d)| r / d).collect();
