@@ -43,7 +43,7 @@ const SHARP: f64 = 1e-2;
 /// rounding it changes. More: guesses astray. Less: time.
 const ENOUGH: f64 = 5e-3;
 /// Most steps of Newton's method from one power to the next, and most halvings of a step.
-const TRIES: usize = 8;
+const TRIES: usize = 10;
 const HALVINGS: i32 = 8;
 /// A step is taken where what is left falls by this share of it.
 const LESS: f64 = 0.1;
@@ -51,6 +51,16 @@ const LESS: f64 = 0.1;
 /// less than that.
 const MOST_FACTOR: f64 = 4.0;
 const LEAST_FACTOR: f64 = 1.02;
+
+/// What Newton's method is after.
+#[derive(Clone, Copy)]
+struct Goal {
+    friction: Friction,
+    /// What may be left of balance.
+    enough: f64,
+    /// Most steps.
+    most: usize,
+}
 
 impl Newton<'_> {
     /// Displacements at which the loads are balanced, from those of `from`: of heaps relaxed, where that
@@ -133,10 +143,9 @@ impl Newton<'_> {
             let from = from.filter(|q| size(self, q) < size(self, &displaced));
             let from = from.unwrap_or_else(|| displaced.clone());
             let most = if reached.is_empty() { STEPS } else { TRIES };
-            let enough = ENOUGH * soft;
-            let (next, left, steps) =
-                self.approach(state, loads, from, friction, enough, most, control);
-            if left > enough {
+            let goal = Goal { friction, enough: ENOUGH * soft, most };
+            let (next, left, steps) = self.approach(state, loads, from, goal, control);
+            if left > goal.enough {
                 factor = factor.sqrt();
                 if reached.is_empty() || factor < LEAST_FACTOR {
                     return None;
@@ -147,9 +156,9 @@ impl Newton<'_> {
             displaced.clone_from(&next);
             reached.push((soft, next));
             if soft <= SHARP {
-                let from = displaced.clone();
+                let goal = Goal { friction: Friction::Follows, enough: BALANCED, most: TRIES };
                 let (sharp, left, _) =
-                    self.approach(state, loads, from, Friction::Follows, BALANCED, TRIES, control);
+                    self.approach(state, loads, displaced.clone(), goal, control);
                 if left <= GOOD {
                     return Some(sharp);
                 }
@@ -164,15 +173,12 @@ impl Newton<'_> {
 
     /// Newton's method until no more than this is left: where it gets, what is left there, and the steps
     /// it took.
-    #[allow(clippy::too_many_arguments)]
     fn approach(
         &mut self,
         state: &State,
         loads: &[Wrench],
         mut displaced: Vec<Rate>,
-        friction: Friction,
-        enough: f64,
-        most: usize,
+        Goal { friction, enough, most }: Goal,
         control: &Control,
     ) -> (Vec<Rate>, f64, usize) {
         let (mut left, mut size) = self.residual(state, loads, &displaced, 0.0, friction);

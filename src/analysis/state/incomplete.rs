@@ -76,7 +76,9 @@ pub fn completed(
     if !fronts.factor(&matrix) {
         return None;
     }
-    matrix.solve(fronts, &right, share, SOME).map(flat)
+    // Single precision may not serve for more than a rough solution: better that than none.
+    let close = matrix.solve(fronts, &right, share, SOME);
+    close.or_else(|| matrix.solve(fronts, &right, share.max(BY_OLD), PRODUCTS)).map(flat)
 }
 
 fn six(list: &[f64]) -> Vec<Vector6<f64>> {
