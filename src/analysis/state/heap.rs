@@ -12,8 +12,9 @@
 //! complementarity: Chen & Mangasarian, Comput. Optim. Appl. 5, 1996).
 
 use super::{
+    equations::{Equations, scaled},
     incomplete::{CLOSELY, completed, solved},
-    newton::{BALANCED, Equations, GLUE, GOOD, Newton, scaled},
+    newton::{BALANCED, GLUE, GOOD, Newton},
 };
 use crate::{
     analysis::Control,

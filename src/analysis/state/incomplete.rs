@@ -1,7 +1,7 @@
 //! Equations of heaps by incomplete factors, and where those do not serve by complete ones of single
 //! precision, which are kept as long as they do.
 
-use super::newton::Equations;
+use super::equations::Equations;
 use crate::{
     solve::{Blocks, Fronts, Pattern},
     yielding::{JointKind, System},

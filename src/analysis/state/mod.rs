@@ -6,6 +6,7 @@
 //! analysis steps halve what is left. Where no displacements balance the loads any more, the path
 //! has ended.
 
+mod equations;
 mod heap;
 mod incomplete;
 mod newton;

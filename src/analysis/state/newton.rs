@@ -7,7 +7,10 @@
 //! starts, joints are glued by a share that is taken away by and by (continuation); what is found
 //! with glue counts for nothing.
 
-use super::incomplete;
+use super::{
+    equations::{Equations, scaled},
+    incomplete,
+};
 use crate::{
     analysis::Control,
     assembly::Wrench,
@@ -267,21 +270,6 @@ impl<'a> Newton<'a> {
         let right = left.iter().zip(&unit).map(|(r, d)| r / d).collect();
         Equations { unit, lower, upper, right }
     }
-}
-
-/// Equations for a step: values of the lower triangle and of its mirror image, right side, and what
-/// unknowns are divided by.
-pub(super) struct Equations {
-    pub unit: Vec<f64>,
-    pub lower: Vec<f64>,
-    pub upper: Vec<f64>,
-    pub right: Vec<f64>,
-}
-
-/// A step in m and rad.
-pub(super) fn scaled(mut x: Vec<f64>, unit: &[f64]) -> Option<Vec<f64>> {
-    x.iter_mut().zip(unit).for_each(|(x, d)| *x /= d);
-    x.iter().all(|v| v.is_finite()).then_some(x)
 }
 
 /// The work of what is left along a step.
