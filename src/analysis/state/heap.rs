@@ -46,11 +46,12 @@ const ENOUGH: f64 = 5e-3;
 /// Most steps of Newton's method from one power to the next, and most halvings of a step.
 const TRIES: usize = 10;
 const HALVINGS: i32 = 8;
-/// A step is taken where what is left falls by this share of it.
-const LESS: f64 = 0.1;
+/// A step is taken where what is left falls by this share of it. More: none is taken where short ones
+/// lead on.
+const LESS: f64 = 1e-3;
 /// Powers grow by this much at most from one to the next, and the search is given up where it would take
-/// less than that.
-const MOST_FACTOR: f64 = 4.0;
+/// less than that. More at most: guesses astray.
+const MOST_FACTOR: f64 = 2.0;
 const LEAST_FACTOR: f64 = 1.02;
 
 /// What Newton's method is after.
