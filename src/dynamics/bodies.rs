@@ -346,7 +346,8 @@ impl<'a> Frictions<'a> {
     }
 
     /// By body: what says the friction of every pair that may meet without a look at the pair.
-    /// `None` unless all that is free are loose spheres of one kind, of which no contact is known.
+    /// `None` unless all that is free are loose spheres of one kind, of which no contact is known,
+    /// and nothing has seams.
     pub fn combined(&self, bodies: &[Body]) -> Option<Vec<Combined>> {
         let one_ball = |b: &Body| {
             matches!(b.shapes.as_slice(), [Shape { form: Form::Ball { .. }, role: Role::Part, .. }])
@@ -357,7 +358,8 @@ impl<'a> Frictions<'a> {
             one_ball(&bodies[i]) && self.rules.kinds.get(i) == self.rules.kinds.get(first)
         };
         let known = !(self.known.is_empty() && self.apart.is_empty());
-        if known || !self.assembly.joints.by_blocks.is_empty() || !free.iter().all(alike) {
+        let seams = bodies.iter().flat_map(|b| &b.shapes).any(|s| !s.inner.is_empty());
+        if known || seams || !self.assembly.joints.by_blocks.is_empty() || !free.iter().all(alike) {
             return None;
         }
         let own = self.between(first, first).friction;
@@ -402,3 +404,6 @@ impl<'a> Frictions<'a> {
 fn coefficient(friction: Friction) -> f64 {
     friction.mu().min(UNLIMITED)
 }
+
+#[cfg(test)]
+mod tests;
