@@ -45,6 +45,10 @@ const RECYCLED: f64 = 0.001;
 /// touch overlap by a sixth of what they did: the statics takes them as they lie. Smaller: contacts
 /// are lost in the overlaps. Larger: time.
 const FINER: f64 = 2.4;
+/// Contacts become stiffer in so many parts, each after so many steps. Fewer: what the overlaps
+/// hold sets the grains in motion, and a heap that rested flows on for as long as it took to form.
+/// More: time.
+const STIFFENED: (usize, usize) = (25, 4);
 /// So many times steps are made finer while statics finds no forces that hold the grains at rest.
 /// More: time (each takes 2.4 times as long as the one before). Fewer: grains that creep too slowly
 /// for the engine to call it motion are left so.
@@ -72,6 +76,8 @@ pub enum Disturbance {
     Spin(Unit<Vector3<f64>>, f64, f64),
     /// These supports, and the lid, move along x at this speed, m/s, so far, m.
     Shear(Vec<usize>, f64, f64),
+    /// Steps become finer by this factor, and contacts stiffer by its square, by and by.
+    Stiffen(f64),
 }
 
 /// What is to happen.
@@ -232,6 +238,7 @@ pub fn flow(
             energy: 0.0,
             recycled: RECYCLED * diameter / units.length,
             dt: natural / STEPS / course.finer,
+            step,
             natural,
             rolling: Rolling::default(),
             frictions: &frictions,
@@ -257,14 +264,11 @@ pub fn flow(
         }
     }
     let mut rounds = 0;
-    let mut finer = dt;
     run.recycled = 0.0;
     while rested && course.settled && rounds < ROUNDS {
         rounds += 1;
-        finer /= FINER;
-        run.world.refine(Step { dt: finer, ..step });
-        run.dt /= FINER;
-        rested = run.stage(stages.len(), &Disturbance::Settle, horizon * natural, watch).0;
+        let stiffen = Disturbance::Stiffen(FINER);
+        rested = run.stage(stages.len(), &stiffen, horizon * natural, watch).0;
         if rested && holds(&run.poses()) {
             break;
         }
@@ -306,6 +310,7 @@ struct Flowing<'a> {
     recycled: f64,
     /// s.
     dt: f64,
+    step: Step,
     /// √(d/g), s.
     natural: f64,
     rolling: Rolling,
@@ -350,14 +355,17 @@ impl Flowing<'_> {
                 let velocity = Vector3::x() * (speed * self.units.time / self.units.length);
                 blocks.iter().chain(&self.lid).for_each(|&i| self.world.push(i, velocity));
             }
-            Disturbance::Settle | Disturbance::Turn(..) | Disturbance::Spin(..) => {}
+            Disturbance::Settle
+            | Disturbance::Turn(..)
+            | Disturbance::Spin(..)
+            | Disturbance::Stiffen(_) => {}
         }
         waiting.reverse();
         let mut parked: std::collections::BTreeSet<usize> =
             waiting.iter().flatten().copied().collect();
         let (mut time, mut poured, mut angle, mut way, mut flowing) =
             (0.0, f64::NEG_INFINITY, 0.0, 0.0, !matches!(change, Disturbance::Turn(..)));
-        let mut still_since = 0.0;
+        let (mut still_since, mut steps) = (0.0, 0);
         self.resting = 0.0;
         self.load(&BTreeMap::new(), &parked);
         loop {
@@ -424,6 +432,14 @@ impl Flowing<'_> {
                 let velocity = Vector3::x() * (speed * self.units.time / self.units.length);
                 self.lid.into_iter().for_each(|i| self.world.push(i, velocity));
             }
+            let stiffening = steps < STIFFENED.0 * STIFFENED.1;
+            if let Disturbance::Stiffen(by) = change
+                && stiffening
+                && steps.is_multiple_of(STIFFENED.1)
+            {
+                self.refine(by.powf(1.0 / STIFFENED.0 as f64));
+            }
+            steps += 1;
             self.world.step();
             self.steps += 1;
             self.elapsed += self.dt;
@@ -449,7 +465,8 @@ impl Flowing<'_> {
                     return (false, None);
                 }
             }
-            let changing = !lifted.is_empty() || !waiting.is_empty() || !flowing;
+            let stiffening = stiffening && matches!(change, Disturbance::Stiffen(_));
+            let changing = !lifted.is_empty() || !waiting.is_empty() || !flowing || stiffening;
             if changing {
                 still_since = time;
                 self.resting = 0.0;
@@ -480,6 +497,13 @@ impl Flowing<'_> {
                 return (false, turned);
             }
         }
+    }
+
+    /// Goes on with steps that are finer by this.
+    fn refine(&mut self, by: f64) {
+        self.dt /= by;
+        self.step.dt /= by;
+        self.world.refine(self.step);
     }
 
     fn force(&self, blocks: &[usize]) -> Vector3<f64> {

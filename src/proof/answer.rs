@@ -130,7 +130,8 @@ pub enum FactorStatus {
     /// It is not less than `lower`, which another answer is known to bear; how much more was not
     /// asked.
     AtLeast,
-    /// Under the dead load alone it does not come to rest: there is no value with dry friction.
+    /// Under the dead load alone it does not come to rest: there is no value with dry friction. It
+    /// falls where the bound is below zero, and needs a pre-stress otherwise.
     NotAtRest,
     /// It did not come out.
     Undecided,

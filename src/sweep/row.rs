@@ -369,6 +369,9 @@ impl RowAnswer {
                 dry: Some(found),
                 ..answer
             },
+            Found::NotAtRest if bound.bracket.upper < 0.0 => {
+                Self { dry: Some(found), ..Self::of(RowStatus::Unstable) }
+            }
             Found::NotAtRest => Self { dry: Some(found), ..Self::of(RowStatus::Conditional) },
             Found::AtLeast | Found::Undecided => Self {
                 status: RowStatus::Undecided,

@@ -10,7 +10,8 @@ use voussoir::{
         coulomb::{self, Found},
         limit, stability, tilt,
     },
-    proof,
+    proof::{self, answer::FactorStatus},
+    report::text,
     scene::{Scene, read_str},
     verdict::Verdict,
 };
@@ -217,6 +218,39 @@ fn what_does_not_rest_under_its_dead_load_has_no_load_factor() {
         dry.found,
         dry.value
     );
+}
+
+/// Two blocks beside each other on a slope that is too steep: a load against the slope is needed,
+/// and the greatest load factor is below zero (as of one block, tan(atan 0.5 − 35°)). The bound
+/// itself proves that nothing rests without the load, and a positive one does not.
+#[test]
+fn what_falls_by_itself_is_proved_to_have_no_load_factor() {
+    let block = |id: &str, from: f64| {
+        let polygon = json!([[from, 0], [from + 1.0, 0], [from + 1.0, 0.1], [from, 0.1]]);
+        json!({ "id": id, "shape": { "prism": { "polygon": polygon, "depth": 1 } },
+            "rotation_deg": { "axis": [0, 1, 0], "angle": 35 }, "material": "stone" })
+    };
+    let mut plane = block("plane", 0.0);
+    plane["shape"]["prism"]["polygon"] = json!([[-4, -0.5], [4, -0.5], [4, 0], [-4, 0]]);
+    plane["support"] = json!(true);
+    let slope = scene(&json!({
+        "format": "voussoir-scene/1",
+        "materials": { "stone": { "density": 2400 } },
+        "joints": { "default": { "friction": 0.5 } },
+        "blocks": [plane, block("above", -1.0), block("below", 0.0)],
+        "loads": { "live": [{ "weight": [1, 0, 0] }] }
+    }));
+    let honest = ask::asked(&slope, &Question::Limit(LimitOptions::default()));
+    let said = honest.answer.load_factor().unwrap();
+    let (bound, ..) = said.associative.found().unwrap();
+    let one = (0.5_f64.atan() - 35_f64.to_radians()).tan();
+    assert!((bound - one).abs() < 1e-6 * one.abs(), "{bound} for {one}");
+    assert!(said.status == FactorStatus::NotAtRest && said.value.is_none(), "{said:?}");
+    let asked = text::Asked { scene: "s", options: "" };
+    let parsed = text::render(&honest, asked, Default::default(), Default::default()).to_string();
+    let first = parsed.lines().next().unwrap();
+    assert!(first.contains("without its live load it falls"), "{parsed}");
+    assert!(!parsed.contains("pre-stress"), "{parsed}");
 }
 
 #[test]

@@ -172,8 +172,7 @@ pub(in crate::analysis) fn up_to_rest(
     control: &Control,
 ) -> DryLoadFactor {
     let bound = associative.value.filter(|_| associative.outcome == Outcome::Found);
-    // Where contacts form no closed chain there is nothing that could be wedged, and below zero the
-    // dead load falls by itself.
+    // Where contacts form no closed chain there is nothing that could be wedged.
     let negative = answer.value.is_some_and(|v| v < 0.0) || bound.is_some_and(|b| b <= 0.0);
     if !matches!(associative.outcome, Outcome::Found | Outcome::Unbounded)
         || control.deadline.is_over()
@@ -183,6 +182,10 @@ pub(in crate::analysis) fn up_to_rest(
     if answer.found != Found::Undecided && is_forest(&at(0.0)) {
         answer.rests_at = answer.value;
         return answer;
+    }
+    // No forces at all hold the dead load: that is proved.
+    if associative.outcome == Outcome::Found && associative.bracket.upper < 0.0 {
+        (answer.found, answer.value) = (Found::NotAtRest, None);
     }
     if negative {
         return answer;

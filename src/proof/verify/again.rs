@@ -103,8 +103,15 @@ pub(in crate::proof) fn dry_friction(
     if f.fails.is_empty() && dry.found == Found::Undecided {
         f.holds.push("undecided: nothing is claimed".into());
     }
+    // What the evidence for the bound says of the dead load is not to be computed again.
+    let falls = dry.found == Found::NotAtRest
+        && bound.0.bound().and_then(|b| b.upper).is_some_and(|u| u < 0.0);
+    if falls {
+        f.holds.push("the bound is below zero: the dead load alone is not held".into());
+    }
     if f.fails.is_empty()
         && !refuted
+        && !falls
         && let Err(e) = spoken_of(&mut f, at, dry)
     {
         f.fails.push(e.to_string());

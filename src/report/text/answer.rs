@@ -42,6 +42,7 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
                 let text = match dry_of(file) {
                     Dry::Same => format!("λ = {bound}"),
                     Dry::Other(v) => format!("λ = {v:.5} with dry friction, at most {bound}"),
+                    Dry::Never if upper < 0.0 => format!("λ at most {bound}"),
                     Dry::Never => format!("no λ with dry friction: not at rest under the dead load (at most {bound} with a pre-stress)"),
                     Dry::UpTo(v) => format!("λ at most {bound}; with dry friction at rest up to {v:.5}, then undecided"),
                     Dry::Undecided => format!("λ at most {bound}; with dry friction undecided"),
@@ -148,8 +149,9 @@ fn without_live_load(file: &ResultFile) -> Option<String> {
         QuestionKind::Kinematic => "without an earthquake",
         _ => return None,
     };
-    let says_so = matches!(dry_of(file), Dry::Never) || status(&file.answer) == Outcome::Impossible;
-    let negative = found(&file.answer).is_some_and(|(_, _, upper)| upper < 0.0);
+    let negative = falls_by_itself(file);
+    let says_so = (matches!(dry_of(file), Dry::Never) && !negative)
+        || status(&file.answer) == Outcome::Impossible;
     let said_elsewhere = file.question == QuestionKind::Tilt;
     if negative && !said_elsewhere && !says_so {
         return Some(format!("{place} it falls"));
@@ -268,6 +270,9 @@ fn dry(page: &mut Page, file: &ResultFile) {
             "With dry friction (joints slide without opening) the blocks come to rest up to {}; what they do between there and the bound did not come out. Computed, not proved.",
             words(v)
         ),
+        (Found::NotAtRest, _) if falls_by_itself(file) => {
+            "With dry friction there is no load factor: already the dead load finds no forces that balance it.".to_string()
+        }
         (Found::NotAtRest, _) => "With dry friction there is no load factor: already without the load the blocks do not come to rest, for the forces that hold them would need a pre-stress that nobody applied. Computed, not proved.".to_string(),
         (Found::FixedPoint, Some(v)) => {
             let others = if status(&file.answer) == Outcome::Found { ", none above the associative one" } else { "" };
@@ -352,7 +357,7 @@ fn dead_load(page: &mut Page, file: &ResultFile) {
         QuestionKind::Moving => "Without the train",
         _ => "Without its live load",
     };
-    let negative = found(&file.answer).is_some_and(|(_, _, upper)| upper < 0.0);
+    let negative = falls_by_itself(file);
     let text = match file.dead_load.as_ref().and_then(|d| d.answer.verdict()) {
         Some(Verdict::Stable) => format!("{place} it stands."),
         Some(Verdict::Conditional) => {
@@ -429,6 +434,11 @@ fn status(answer: &Answer) -> Outcome {
 }
 
 /// Value and bracket where a load factor was found.
+/// Whether no forces hold the dead load alone: the bound is below zero.
+fn falls_by_itself(file: &ResultFile) -> bool {
+    found(&file.answer).is_some_and(|(_, _, upper)| upper < 0.0)
+}
+
 fn found(answer: &Answer) -> Option<(f64, f64, f64)> {
     answer.bound()?.found()
 }

@@ -52,6 +52,12 @@ fn start(l: &LoadFactorAnswer) -> (String, Role) {
         (FactorStatus::Found, Some(value), _) => (format!("α0 = {value}"), Role::Value),
         (FactorStatus::Unbounded, ..) => ("no earthquake moves it: it wedges".into(), Role::Good),
         (FactorStatus::Impossible, ..) => ("falls, whatever the earthquake".into(), Role::Bad),
+        // That it falls without an earthquake is said beside it.
+        (FactorStatus::NotAtRest, _, Some(bound))
+            if l.associative.upper.is_some_and(|u| u < 0.0) =>
+        {
+            (format!("α0 at most {bound}"), Role::Bad)
+        }
         (FactorStatus::NotAtRest, ..) => {
             ("no α0 with dry friction: not at rest under the dead load".into(), Role::Bad)
         }

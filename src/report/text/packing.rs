@@ -80,6 +80,9 @@ fn angle(d: &PackingDirection) -> String {
         _ => return "undecided".into(),
     };
     match (d.dry, dry(d)) {
+        (Some(Found::NotAtRest), _) if d.bracket_deg.is_some_and(|[_, upper]| upper < 0.0) => {
+            format!("falls even when level, at most {bound}°")
+        }
         (Some(Found::NotAtRest), _) => {
             format!("not even level with dry friction, at most {bound}° with a pre-stress")
         }
