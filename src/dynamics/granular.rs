@@ -218,6 +218,7 @@ pub fn flow(
         threads: course.threads.max(1),
         prediction,
         restitution: course.restitution,
+        pointed: !round,
     };
     let mut world = World::new(&bodies, &frictions, step)
         .map_err(|text| InputError::at(Default::default(), text))?;

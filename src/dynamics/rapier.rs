@@ -1,5 +1,5 @@
-//! The only file that names rapier: bodies in, poses and contact forces out, all in the engine's
-//! units.
+//! The only file that names rapier beside [`Anew`]: bodies in, poses and contact forces out, all in
+//! the engine's units.
 //!
 //! Settings, each measured on masonry and against the engine's defaults:
 //! * hulls smaller by a skin that the contacts add again: hulls that touch exactly get wrong
@@ -13,7 +13,10 @@
 //!   alone may take contacts over from step to step while they hardly move
 //!   ([`World::recycle`]; pairs with a hook are always found anew).
 
-use super::bodies::{Body, Combined, Form, Frictions, Role};
+use super::{
+    anew::Anew,
+    bodies::{Body, Combined, Form, Frictions, Role},
+};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use rapier3d::{
     math::{Pose, Rotation, Vector},
@@ -65,6 +68,9 @@ pub(super) struct Step {
     pub prediction: f64,
     /// Coefficient of restitution of every contact.
     pub restitution: f64,
+    /// Whether bodies with faces rest on edges and corners: their contacts are found anew in every
+    /// step ([`Anew`]), and of more points than the engine takes the deepest is one.
+    pub pointed: bool,
 }
 
 /// A force of one contact patch.
@@ -106,6 +112,8 @@ struct Hooks<'a> {
     frictions: &'a Frictions<'a>,
     /// By collider.
     shapes: Vec<Seam>,
+    /// [`Step::pointed`].
+    pointed: bool,
 }
 
 struct Seam {
@@ -138,12 +146,16 @@ impl<'a> World<'a> {
             .configure_thread_pool(step.threads)
             .map_err(|e| format!("the engine got no threads: {e}"))?;
         let mut world = Self {
-            hooks: Hooks { frictions, shapes: Vec::new() },
+            hooks: Hooks { frictions, shapes: Vec::new(), pointed: step.pointed },
             parameters,
             pipeline,
             islands: IslandManager::new(),
             broad_phase: BroadPhaseBvh::new(),
-            narrow_phase: NarrowPhase::new(),
+            narrow_phase: if step.pointed {
+                NarrowPhase::with_query_dispatcher(Anew)
+            } else {
+                NarrowPhase::new()
+            },
             bodies: RigidBodySet::new(),
             colliders: ColliderSet::new(),
             impulse_joints: ImpulseJointSet::new(),
@@ -454,6 +466,9 @@ impl PhysicsHooks for Hooks<'_> {
         }
         if closed != 0.0 {
             return manifold.solver_contacts.iter_mut().for_each(|c| c.dist -= closed);
+        }
+        if self.pointed {
+            return;
         }
         // The engine adds the point where its search for the normal ended, which wanders: corners
         // do without.

@@ -224,7 +224,14 @@ impl Stage<'_> {
         let (per_unit, iterations) = fidelity.fineness();
         let dt = 1.0 / per_unit;
         let threads = self.settings.threads.max(1);
-        let step = Step { dt, iterations, threads, prediction: PREDICTION, restitution: 0.0 };
+        let step = Step {
+            dt,
+            iterations,
+            threads,
+            prediction: PREDICTION,
+            restitution: 0.0,
+            pointed: false,
+        };
         let world = World::new(self.bodies, self.frictions, step).map_err(|text| {
             InputError::at(Default::default(), text)
                 .hint("give the block a simpler shape, or ask `voussoir assess`")
