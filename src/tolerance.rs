@@ -298,9 +298,9 @@ pub const DRY_BALANCE: f64 = 1e-4;
 pub const SKIN: f64 = 2e-5;
 
 /// As [`SKIN`], for hulls that flow: contacts are softer there. Larger: edges are visibly round, and
-/// hulls that touch overlap at their corners by as much (5e-4: 6e-4 d). Smaller: the engine's normals
+/// hulls that touch overlap at their corners by as much (6e-4 d). Smaller: the engine's normals
 /// are more often those of its search for the way out.
-pub const GRAIN_SKIN: f64 = 1e-4;
+pub const GRAIN_SKIN: f64 = 5e-4;
 
 /// [`SKIN`] is at most this × the thickness of the thinnest piece of the block. Larger: thin plates
 /// turn inside out. Smaller: plates of 1e-4 of their size get a skin of rounding noise.

@@ -218,7 +218,9 @@ pub fn flow(
         threads: course.threads.max(1),
         prediction,
         restitution: course.restitution,
-        pointed: !round,
+        pointed: assembly
+            .free()
+            .any(|i| Some(i) != course.lid && !assembly.blocks[i].solid.is_round()),
     };
     let mut world = World::new(&bodies, &frictions, step)
         .map_err(|text| InputError::at(Default::default(), text))?;
