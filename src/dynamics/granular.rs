@@ -45,12 +45,10 @@ const RECYCLED: f64 = 0.001;
 /// touch overlap by a sixth of what they did: the statics takes them as they lie. Smaller: contacts
 /// are lost in the overlaps. Larger: time.
 const FINER: f64 = 2.4;
-/// Contacts become stiffer in so many parts, each after so many steps, times the square of the
-/// height of a heap over that of one of [`LOW`] grains: so long a layer takes to rise with those
-/// below it. Fewer: what the overlaps hold sets the grains in motion, and a heap that rested flows
-/// on for as long as it took to form. More: time.
-const STIFFENED: (usize, f64) = (25, 4.0);
-const LOW: f64 = 2000.0;
+/// Contacts become stiffer in so many parts, each after so many steps. Fewer: what the overlaps
+/// hold sets the grains in motion, and a heap that rested flows on for as long as it took to form.
+/// More: time (heaps of 20,000 gain little by five times as many).
+const STIFFENED: (usize, usize) = (25, 4);
 /// So many times steps are made finer while statics finds no forces that hold the grains at rest.
 /// More: time (each takes 2.4 times as long as the one before). Fewer: grains that creep too slowly
 /// for the engine to call it motion are left so.
@@ -370,8 +368,6 @@ impl Flowing<'_> {
         let (mut time, mut poured, mut angle, mut way, mut flowing) =
             (0.0, f64::NEG_INFINITY, 0.0, 0.0, !matches!(change, Disturbance::Turn(..)));
         let (mut still_since, mut steps) = (0.0, 0);
-        let height = (self.free.len() as f64 / LOW).cbrt().max(1.0);
-        let every = (STIFFENED.1 * height.powi(2)) as usize;
         self.resting = 0.0;
         self.load(&BTreeMap::new(), &parked);
         loop {
@@ -438,10 +434,10 @@ impl Flowing<'_> {
                 let velocity = Vector3::x() * (speed * self.units.time / self.units.length);
                 self.lid.into_iter().for_each(|i| self.world.push(i, velocity));
             }
-            let stiffening = steps < STIFFENED.0 * every;
+            let stiffening = steps < STIFFENED.0 * STIFFENED.1;
             if let Disturbance::Stiffen(by) = change
                 && stiffening
-                && steps.is_multiple_of(every)
+                && steps.is_multiple_of(STIFFENED.1)
             {
                 self.refine(by.powf(1.0 / STIFFENED.0 as f64));
             }

@@ -16,7 +16,6 @@
 //! with dowels or fingers is not run. Cohesion, tensile and compressive strength are left out, which
 //! the outcome's findings say.
 
-mod anew;
 mod bodies;
 mod cell;
 pub mod granular;

@@ -20,6 +20,7 @@ use voussoir::{
         page,
     },
     scene::{BlockSpec, GrainKind, Protocol, ProtocolKind, Scene, Sizes},
+    tolerance::GRAIN_GAP,
     verdict::Verdict,
 };
 
@@ -343,5 +344,8 @@ fn a_heap_at_rest_is_confirmed_by_statics() {
         if grain != GrainKind::Hull {
             assert!(statics.admissible, "{statics:?}");
         }
+        // What presses is where it is solved for: no two dig into each other beside it.
+        let overlaps = model.interfaces.left_out.map_or(0, |l| l.overlaps);
+        assert_eq!(overlaps, 0, "{grain:?}: pairs that overlap by more than {GRAIN_GAP}");
     }
 }

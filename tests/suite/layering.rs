@@ -317,12 +317,6 @@ fn one_engine_one_adapter() {
             } else {
                 home
             };
-            // What the engine's own geometry is told before it looks at a pair.
-            let home = if engine == "rapier3d" && name == "src/dynamics/anew.rs" {
-                "src/dynamics/anew.rs"
-            } else {
-                home
-            };
             let named =
                 text.contains(&format!("{engine}::")) || text.contains(&format!("use {engine}"));
             assert!(

@@ -172,22 +172,21 @@ pub(in crate::analysis) fn up_to_rest(
     control: &Control,
 ) -> DryLoadFactor {
     let bound = associative.value.filter(|_| associative.outcome == Outcome::Found);
-    // Where contacts form no closed chain there is nothing that could be wedged.
     let negative = answer.value.is_some_and(|v| v < 0.0) || bound.is_some_and(|b| b <= 0.0);
-    if !matches!(associative.outcome, Outcome::Found | Outcome::Unbounded)
-        || control.deadline.is_over()
-    {
+    if !matches!(associative.outcome, Outcome::Found | Outcome::Unbounded) {
         return answer;
     }
+    // Where contacts form no closed chain there is nothing that could be wedged.
     if answer.found != Found::Undecided && is_forest(&at(0.0)) {
         answer.rests_at = answer.value;
         return answer;
     }
-    // No forces at all hold the dead load: that is proved.
-    if associative.outcome == Outcome::Found && associative.bracket.upper < 0.0 {
+    // No forces at all hold the dead load: the bound proves it, and needs no time.
+    if bound.is_some() && associative.bracket.upper < 0.0 {
         (answer.found, answer.value) = (Found::NotAtRest, None);
+        return answer;
     }
-    if negative {
+    if negative || control.deadline.is_over() {
         return answer;
     }
     let mut probe = Probe { at, control, seen: Vec::new() };

@@ -69,7 +69,7 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
         QuestionKind::Tilt => {
             let toward = file.answer.toward().map(|d| format!(" towards {}", point(d))).unwrap_or_default();
             match (status(&file.answer), found(&file.answer)) {
-                (Outcome::Found, Some((_, _, upper))) if upper < 0.0 => ("falls even when level".to_string(), Role::Bad),
+                (Outcome::Found, Some(_)) if falls_by_itself(file) => ("falls even when level".to_string(), Role::Bad),
                 (Outcome::Found, Some(l)) => {
                     let bound = degrees(l);
                     let text = match dry_of(file) {
@@ -433,12 +433,12 @@ fn status(answer: &Answer) -> Outcome {
     answer.bound().map_or(Outcome::Undecided, |b| b.status)
 }
 
-/// Value and bracket where a load factor was found.
 /// Whether no forces hold the dead load alone: the bound is below zero.
 fn falls_by_itself(file: &ResultFile) -> bool {
     found(&file.answer).is_some_and(|(_, _, upper)| upper < 0.0)
 }
 
+/// Value and bracket where a load factor was found.
 fn found(answer: &Answer) -> Option<(f64, f64, f64)> {
     answer.bound()?.found()
 }
