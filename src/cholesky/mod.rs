@@ -2,6 +2,7 @@
 //! `lu.rs` the adapter to faer.
 
 mod dissection;
+mod fronts;
 
 pub use dissection::dissected;
 use faer::{
@@ -12,11 +13,12 @@ use faer::{
     sparse::{
         SparseColMatRef, SymbolicSparseColMatRef,
         linalg::cholesky::{
-            CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering,
-            factorize_symbolic_cholesky,
+            CholeskySymbolicParams, LltRef, SymbolicCholesky, SymbolicCholeskyRaw,
+            SymmetricOrdering, factorize_symbolic_cholesky,
         },
     },
 };
+use fronts::Fronts;
 
 /// The pattern of the lower triangle of a symmetric matrix, column by column.
 #[derive(Clone, Debug)]
@@ -46,10 +48,12 @@ pub struct Cholesky {
     factor: Vec<f64>,
     work: MemBuffer,
     threads: Par,
+    /// Where it is large.
+    fronts: Option<Fronts>,
 }
 
-/// How many threads factor a matrix of so many rows. Parts of its factor are shared out, sums are not:
-/// the same bits on any number.
+/// How many threads factor a matrix of so many rows. Subtrees and parts of products are shared out,
+/// sums are not: the same bits on any number.
 fn threads(rows: usize) -> Par {
     #[cfg(feature = "solve")]
     let all = Par::rayon(0);
@@ -99,7 +103,13 @@ impl Cholesky {
         let mut factor = Vec::new();
         factor.try_reserve_exact(symbolic.len_val()).ok()?;
         factor.resize(symbolic.len_val(), 0.0);
-        Some(Self { pattern, symbolic, factor, work, threads })
+        let fronts = match symbolic.raw() {
+            SymbolicCholeskyRaw::Supernodal(s) if n >= LARGE => {
+                Some(Fronts::new(&pattern, s, symbolic.perm()))
+            }
+            _ => None,
+        };
+        Some(Self { pattern, symbolic, factor, work, threads, fronts })
     }
 
     /// Entries of the factor.
@@ -128,6 +138,9 @@ impl Cholesky {
         let n = self.pattern.size();
         if values.len() != self.pattern.rows.len() {
             return false;
+        }
+        if let Some(fronts) = &self.fronts {
+            return fronts.factor(values, &mut self.factor, regularization, self.threads);
         }
         let entries = SymbolicSparseColMatRef::new_checked(
             n,
@@ -213,6 +226,40 @@ mod tests {
         cholesky.solve(&mut x);
         let off = x.iter().zip(&wanted).map(|(x, w)| (x - w).abs()).fold(0.0, f64::max);
         assert!(off < 1e-12, "{off}");
+    }
+
+    /// Front by front the factor is that of faer, also where pivots are replaced, and what is not
+    /// positive definite is refused.
+    #[test]
+    fn fronts_give_the_factor_of_faer() {
+        let (pattern, mut values) = lattice(20);
+        let n = pattern.size();
+        let last = values.len() - 1;
+        let mut fronts = Cholesky::new(pattern.clone()).unwrap();
+        let mut faer = Cholesky { fronts: None, ..Cholesky::new(pattern.clone()).unwrap() };
+        assert!(fronts.fronts.is_some());
+        let mut agree = |values: &[f64], least: f64| {
+            let done = [fronts.factorize_above(values, least), faer.factorize_above(values, least)];
+            assert_eq!(done, [true; 2]);
+            let far = |(a, b): (&f64, &f64)| (a - b).abs();
+            let off = fronts.factor.iter().zip(&faer.factor).map(far).fold(0.0, f64::max);
+            assert!(off < 1e-12, "{off}");
+        };
+        agree(&values, 1e-12);
+        // One row stands alone, and has rounding.
+        let alone = n / 2;
+        for column in 0..n {
+            let own = pattern.starts[column]..pattern.starts[column + 1];
+            for (value, &row) in values[own.clone()].iter_mut().zip(&pattern.rows[own]) {
+                if [row, column].contains(&alone) {
+                    *value = if row == column { 1e-14 } else { 0.0 };
+                }
+            }
+        }
+        agree(&values, 1e-12);
+        let (_, mut values) = lattice(20);
+        values[last] = -1.0;
+        assert!(!fronts.factorize(&values));
     }
 
     /// On any number of threads the factor has the same bits.

@@ -301,7 +301,7 @@ fn one_engine_one_adapter() {
         let name = path.to_string_lossy().replace('\\', "/");
         for (engine, home) in [
             ("clarabel", "src/solve/"),
-            ("faer", "src/cholesky/mod.rs"),
+            ("faer", "src/cholesky/"),
             ("parry3d", "src/interface/detect"),
             ("rapier3d", "src/dynamics/rapier.rs"),
             ("clap", "src/cli/"),
