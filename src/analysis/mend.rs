@@ -11,13 +11,14 @@
 //! ([`opening`]). Where sliding is excluded at any force there is none, and the mechanism stays as
 //! it is.
 
+use super::attempt::is_large;
 use crate::{
     assembly::Assembly,
     deadline::Deadline,
     interface::{Interface, Interfaces, Model},
-    program::{Statics, StaticsOptions, opening},
+    program::{Statics, StaticsOptions, Unknowns, opening},
     scene::Friction,
-    solve::{self, Settings},
+    solve::{self, EngineSettings, Settings},
     tolerance,
     verdict::{
         Forces, Rate, at, certificate,
@@ -271,12 +272,16 @@ fn sought(model: &Model, deadline: Deadline) -> Option<Vec<Rate>> {
     let contacts = Interfaces { members: Vec::new(), ..model.interfaces.clone() };
     let bare = model.with_interfaces(contacts);
     let statics = Statics::new(&bare, StaticsOptions::default());
-    let program = opening(&statics)?;
-    let settings = Settings { deadline, tolerance: 1e-6, ..Settings::default() };
+    let (engine, unknowns) = match is_large(&statics) {
+        true => (EngineSettings::Interior, Unknowns::Forces),
+        false => (EngineSettings::default(), Unknowns::Rates),
+    };
+    let (program, first) = opening(&statics, unknowns)?;
+    let settings = Settings { engine, deadline, tolerance: 1e-6, ..Settings::default() };
     let solution = solve::solve(&program, &settings);
     if !solution.is_finite() {
         return None;
     }
-    let rates = statics.rates(assembly.blocks.len(), &solution.x);
+    let rates = statics.rates(assembly.blocks.len(), &solution.x[first..]);
     Some(rates.into_iter().map(|(velocity, spin)| Rate { velocity, spin }).collect())
 }
