@@ -46,13 +46,7 @@ fn closed_words(file: &ResultFile, closed: &Closed) -> String {
             // Of forces that exist, as the range beside it is.
             return format!("the least {what} is {}, the greatest {}", end(least), end(greatest));
         }
-        ClosedAnswer::Flips { values, start } => match &values[..] {
-            [] => format!("{} throughout", verdict(*start)),
-            values => {
-                let values: Vec<String> = values.iter().map(|v| short(*v)).collect();
-                format!("it flips at {}", values.join(", "))
-            }
-        },
+        ClosedAnswer::Flips { values, start } => flips(values, *start),
         ClosedAnswer::Verdict(v) => verdict(*v).into(),
         ClosedAnswer::LoadFactor { status, value } => match (status, value) {
             (Outcome::Found, Some(value)) => bound(*value),
@@ -66,6 +60,20 @@ fn closed_words(file: &ResultFile, closed: &Closed) -> String {
     match closed.law {
         Law::Associative if dry => format!("{text} where joints open as they slide"),
         _ => text,
+    }
+}
+
+/// Flips that one line names; of more it names the ends, and the saved answer has them all.
+const NAMED: usize = 4;
+
+fn flips(values: &[f64], start: Verdict) -> String {
+    let list = |values: &[f64]| values.iter().map(|v| short(*v)).collect::<Vec<_>>().join(", ");
+    match values {
+        [] => format!("{} throughout", verdict(start)),
+        [first, .., last] if values.len() > NAMED => {
+            format!("it flips {} times from {} to {}", values.len(), short(*first), short(*last))
+        }
+        values => format!("it flips at {}", list(values)),
     }
 }
 
@@ -83,5 +91,18 @@ fn end(end: &ClosedEnd) -> String {
         ClosedEnd { status: Outcome::Found, value: Some(v) } => format!("{} N", short(v)),
         ClosedEnd { status: Outcome::Unbounded, .. } => "without end".into(),
         _ => "undecided".into(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_names_few_flips() {
+        assert_eq!(flips(&[], Verdict::Stable), "it stands throughout");
+        assert_eq!(flips(&[0.25, 0.5], Verdict::Stable), "it flips at 0.25, 0.5");
+        let many = [0.1, 0.2, 0.3, 0.4, 0.5];
+        assert_eq!(flips(&many, Verdict::Unstable), "it flips 5 times from 0.1 to 0.5");
     }
 }
