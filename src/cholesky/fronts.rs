@@ -60,8 +60,8 @@ struct Rest {
     lower: Vec<f64>,
 }
 
-/// The matrix was not positive definite.
-struct Indefinite;
+/// The matrix was not positive definite, or what a front leaves does not fit into memory.
+struct NoFactor;
 
 impl Fronts {
     pub fn new(
@@ -128,7 +128,7 @@ impl Fronts {
         Self { list, pieces, above, piece }
     }
 
-    /// The numbers of the factor; false where the matrix is not positive definite.
+    /// The numbers of the factor; false where the matrix is not positive definite or memory is short.
     pub fn factor(
         &self,
         matrix: &[f64],
@@ -153,21 +153,22 @@ impl Fronts {
             })
             .collect();
         let one = |piece: &Mutex<Vec<(usize, &mut [f64])>>| {
-            let own = std::mem::take(&mut *piece.lock().unwrap_or_else(PoisonError::into_inner));
+            // Nothing is used up: where not all threads could be started, it is done once more.
+            let mut own = piece.lock().unwrap_or_else(PoisonError::into_inner);
             let mut rests = Vec::new();
-            for (s, columns) in own {
-                self.eliminate(s, matrix, columns, &mut rests, regularization, Par::Seq)?;
+            for (s, columns) in own.iter_mut() {
+                self.eliminate(*s, matrix, columns, &mut rests, regularization, Par::Seq)?;
             }
             Ok(rests.pop().unwrap_or_default())
         };
         let alone = || pieces.iter().map(&one).collect();
         #[cfg(feature = "solve")]
-        let done: Result<Vec<Rest>, Indefinite> = match threads.degree() {
+        let done: Result<Vec<Rest>, NoFactor> = match threads.degree() {
             1 => alone(),
             many => crate::parallel::try_map(many, &pieces, one).unwrap_or_else(|_| alone()),
         };
         #[cfg(not(feature = "solve"))]
-        let done: Result<Vec<Rest>, Indefinite> = alone();
+        let done: Result<Vec<Rest>, NoFactor> = alone();
         let Ok(mut done) = done else { return false };
         let mut rests = Vec::new();
         self.above.iter().all(|&s| {
@@ -190,7 +191,7 @@ impl Fronts {
         rests: &mut Vec<Rest>,
         regularization: LltRegularization<f64>,
         threads: Par,
-    ) -> Result<(), Indefinite> {
+    ) -> Result<(), NoFactor> {
         let front = &self.list[s];
         let (width, size) = (front.width, front.size);
         let below = size - width;
@@ -198,7 +199,9 @@ impl Fronts {
         for &(e, at) in &front.entries {
             columns[at] += matrix[e];
         }
-        let mut rest = vec![0.0; below * below];
+        let mut rest = Vec::new();
+        rest.try_reserve_exact(below * below).map_err(|_| NoFactor)?;
+        rest.resize(below * below, 0.0);
         for child in rests.drain(rests.len() - front.children..) {
             let into = &self.list[child.of].into;
             for (j, &column) in into.iter().enumerate() {
@@ -216,7 +219,7 @@ impl Fronts {
         let mut work = MemBuffer::new(need);
         let stack = MemStack::new(&mut work);
         cholesky_in_place(own.rb_mut(), regularization, threads, stack, Default::default())
-            .map_err(|_| Indefinite)?;
+            .map_err(|_| NoFactor)?;
         solve_lower_triangular_in_place(own.rb(), lower.rb_mut().transpose_mut(), threads);
         triangular::matmul(
             MatMut::from_column_major_slice_mut(&mut rest, below, below),
