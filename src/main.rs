@@ -8,5 +8,6 @@ use std::process::ExitCode;
 static MEMORY: memory::Counted = memory::Counted;
 
 fn main() -> ExitCode {
+    memory::heed_threads();
     voussoir::command::run(std::env::args_os(), memory::LIMITS).into()
 }

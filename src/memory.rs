@@ -112,10 +112,23 @@ fn refuse(bytes: usize) {
     std::process::exit(Exit::Usage as i32);
 }
 
-/// Ends the program where the system gave nothing. Nothing here may ask for memory, unwind or wait
-/// for a lock that this thread holds.
+/// A thread that finds no memory for its own alternative stack while it starts panics inside the
+/// standard library, before anything of ours can see it, and aborts all. It is ended here instead,
+/// as where an allocation fails.
+pub fn heed_threads() {
+    let others = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |panic| {
+        if panic.location().is_some_and(|at| at.file().ends_with("stack_overflow.rs")) {
+            failed(None);
+        }
+        others(panic);
+    }));
+}
+
+/// Ends the program where the system gave nothing: for that many bytes, or for the stack of a
+/// thread. Nothing here may ask for memory, unwind or wait for a lock that this thread holds.
 #[cold]
-fn failed(bytes: usize) -> ! {
+fn failed(bytes: Option<usize>) -> ! {
     if FAILED.swap(true, Ordering::Relaxed) {
         // Another thread speaks, and ends all of them.
         loop {
@@ -123,10 +136,13 @@ fn failed(bytes: usize) -> ! {
         }
     }
     let mut line = Line { text: [0; 256], length: 0 };
-    let _ = write!(
-        line,
-        "error: the system gives no more memory (the last piece had {bytes} bytes)\n\
-         hint: raise the limit of this process (`ulimit -v`), give --max-memory, or ask about a smaller scene\n"
+    let _ = line.write_str("error: the system gives no more memory (");
+    let _ = match bytes {
+        Some(bytes) => write!(line, "the last piece had {bytes} bytes"),
+        None => line.write_str("a thread could not start"),
+    };
+    let _ = line.write_str(
+        ")\nhint: raise the limit of this process (`ulimit -v`), give --max-memory, or ask about a smaller scene\n",
     );
     end(line.text.get(..line.length).unwrap_or_default())
 }
@@ -167,7 +183,7 @@ impl std::fmt::Write for Line {
 /// What the system gave; the end where it gave nothing.
 fn given(place: *mut u8, bytes: usize) -> *mut u8 {
     if place.is_null() {
-        failed(bytes);
+        failed(Some(bytes));
     }
     place
 }
