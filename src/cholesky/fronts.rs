@@ -2,7 +2,7 @@
 //! solution*, SIAM Review 34, 1992): subtrees of the elimination tree are independent pieces of work,
 //! and the few fronts above them are products of large matrices, which faer shares out.
 //!
-//! Order, supernodes and the place of every number are faer's, and so is the solution with the factor.
+//! Order, supernodes and the place of every number are faer's.
 //! Here and not there: faer gathers each supernode from all of its descendants in turn, on one thread
 //! but for the inside of a product.
 
@@ -126,6 +126,16 @@ impl Fronts {
         let pieces = last.iter().map(|&s| postorder(&[s], &children, |_| false)).collect();
         last.iter().enumerate().for_each(|(k, &s)| piece[s] = Some(k));
         Self { list, pieces, above, piece }
+    }
+
+    /// Fronts of the subtrees that are done by themselves, each in the order of elimination.
+    pub fn pieces(&self) -> impl Iterator<Item = &[usize]> {
+        self.pieces.iter().map(Vec::as_slice)
+    }
+
+    /// Fronts of no piece, in the order of elimination.
+    pub fn above(&self) -> impl Iterator<Item = usize> {
+        self.above.iter().copied().filter(|&s| self.piece[s].is_none())
     }
 
     /// The numbers of the factor; false where the matrix is not positive definite or memory is short.

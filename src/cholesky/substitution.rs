@@ -1,0 +1,195 @@
+//! Solution with the factors of [`super::fronts`]: subtrees are independent here as there. Forward, each
+//! hands what it takes from the rows above on to them; backward, it reads those rows.
+//!
+//! Here and not faer's: that goes through general products of matrices for every supernode, most of
+//! which have a handful of columns, and on one thread.
+
+use super::fronts::Fronts;
+use faer::{Par, perm::PermRef, sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky};
+use std::sync::{Mutex, PoisonError};
+
+/// Numbers of a factor from which subtrees are shared out. Fewer: threads are started for less than
+/// they cost.
+const SHARED: usize = 300_000;
+
+/// How to solve with the factors of one pattern.
+pub struct Substitution {
+    pieces: Vec<Mutex<Part>>,
+    above: Mutex<Part>,
+}
+
+/// Some of the columns of a factor, in the order of elimination, and the rows that they reach.
+struct Part {
+    /// Where its rows are in the whole: its own columns, and then rows of other parts.
+    rows: Vec<usize>,
+    own: usize,
+    panels: Vec<Panel>,
+    /// Values at its rows, and of one panel.
+    values: Vec<f64>,
+    work: Vec<f64>,
+}
+
+/// Columns with one pattern.
+struct Panel {
+    first: usize,
+    width: usize,
+    /// Where its numbers begin in the factor.
+    at: usize,
+    /// Rows below its own, in its part.
+    below: Vec<usize>,
+}
+
+impl Substitution {
+    pub fn new(
+        fronts: &Fronts,
+        symbolic: &SymbolicSupernodalCholesky<usize>,
+        order: Option<PermRef<'_, usize>>,
+        size: usize,
+    ) -> Self {
+        let old = |new: usize| order.map_or(new, |p| p.arrays().0[new]);
+        // Where a row is in the part at hand; no row is elsewhere in it.
+        let mut place = vec![usize::MAX; size];
+        let mut part = |list: &mut dyn Iterator<Item = usize>| {
+            let (begin, end) = (symbolic.supernode_begin(), symbolic.supernode_end());
+            let list: Vec<usize> = list.collect();
+            let mut rows: Vec<usize> = list.iter().flat_map(|&s| begin[s]..end[s]).collect();
+            let own = rows.len();
+            rows.iter().enumerate().for_each(|(k, &row)| place[row] = k);
+            let panels = list
+                .iter()
+                .map(|&s| {
+                    let mut local = |&row: &usize| {
+                        if place[row] == usize::MAX {
+                            place[row] = rows.len();
+                            rows.push(row);
+                        }
+                        place[row]
+                    };
+                    Panel {
+                        first: local(&begin[s]),
+                        width: end[s] - begin[s],
+                        at: symbolic.col_ptr_for_val()[s],
+                        below: symbolic.supernode(s).pattern().iter().map(local).collect(),
+                    }
+                })
+                .collect();
+            for row in &mut rows {
+                place[*row] = usize::MAX;
+                *row = old(*row);
+            }
+            Mutex::new(Part { rows, own, panels, values: Vec::new(), work: Vec::new() })
+        };
+        let pieces = fronts.pieces().map(|list| part(&mut list.iter().copied())).collect();
+        let above = part(&mut fronts.above());
+        Self { pieces, above }
+    }
+
+    /// Solves in place. Sums are taken in one order: the same bits on any number of threads.
+    pub fn solve(&self, factor: &[f64], x: &mut [f64], threads: Par) {
+        self.on_pieces(factor, threads, |part| {
+            part.read(x);
+            part.values[part.own..].fill(0.0);
+            part.forward(factor);
+        });
+        for part in &self.pieces {
+            let part = lock(part);
+            for (k, (&row, value)) in part.rows.iter().zip(&part.values).enumerate() {
+                if k < part.own {
+                    x[row] = *value;
+                } else {
+                    x[row] += value;
+                }
+            }
+        }
+        let mut above = lock(&self.above);
+        above.read(x);
+        above.forward(factor);
+        above.backward(factor);
+        above.write(x);
+        self.on_pieces(factor, threads, |part| {
+            part.read(x);
+            part.backward(factor);
+        });
+        self.pieces.iter().for_each(|part| lock(part).write(x));
+    }
+
+    fn on_pieces(&self, factor: &[f64], threads: Par, work: impl Fn(&mut Part) + Sync) {
+        let one = |part: &Mutex<Part>| work(&mut lock(part));
+        #[cfg(feature = "solve")]
+        if threads.degree() > 1
+            && factor.len() > SHARED
+            && crate::parallel::map(threads.degree(), &self.pieces, one).is_ok()
+        {
+            return;
+        }
+        // Where not all threads could be started, what was done is done once more.
+        self.pieces.iter().for_each(one);
+    }
+}
+
+/// A part belongs to one thread at a time.
+fn lock(part: &Mutex<Part>) -> std::sync::MutexGuard<'_, Part> {
+    part.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Part {
+    fn read(&mut self, x: &[f64]) {
+        self.values.clear();
+        self.values.extend(self.rows.iter().map(|&row| x[row]));
+    }
+
+    fn write(&self, x: &mut [f64]) {
+        self.rows.iter().zip(&self.values).take(self.own).for_each(|(&row, v)| x[row] = *v);
+    }
+
+    /// With the lower triangle, from the first column on.
+    fn forward(&mut self, factor: &[f64]) {
+        let Self { panels, values, work, .. } = self;
+        for panel in panels {
+            let size = panel.width + panel.below.len();
+            let own = &mut values[panel.first..panel.first + panel.width];
+            work.clear();
+            work.extend_from_slice(own);
+            work.resize(size, 0.0);
+            let columns = factor[panel.at..].chunks_exact(size).take(panel.width);
+            for (k, column) in columns.enumerate() {
+                let (done, left) = work.split_at_mut(k + 1);
+                let value = done[k] / column[k];
+                done[k] = value;
+                left.iter_mut().zip(&column[k + 1..]).for_each(|(w, l)| *w -= value * l);
+            }
+            own.copy_from_slice(&work[..panel.width]);
+            panel.below.iter().zip(&work[panel.width..]).for_each(|(&row, w)| values[row] += w);
+        }
+    }
+
+    /// With its transpose, from the last column on.
+    fn backward(&mut self, factor: &[f64]) {
+        let Self { panels, values, work, .. } = self;
+        for panel in panels.iter().rev() {
+            let size = panel.width + panel.below.len();
+            work.clear();
+            work.extend_from_slice(&values[panel.first..panel.first + panel.width]);
+            work.extend(panel.below.iter().map(|&row| values[row]));
+            for k in (0..panel.width).rev() {
+                let column = &factor[panel.at + k * size..panel.at + (k + 1) * size];
+                work[k] = (work[k] - product(&column[k + 1..], &work[k + 1..])) / column[k];
+            }
+            values[panel.first..panel.first + panel.width].copy_from_slice(&work[..panel.width]);
+        }
+    }
+}
+
+/// The scalar product, summed in lanes so that the processor takes several at once.
+fn product(a: &[f64], b: &[f64]) -> f64 {
+    const LANES: usize = 8;
+    let mut sums = [0.0; LANES];
+    let ((a, last_a), (b, last_b)) = (a.as_chunks::<LANES>(), b.as_chunks::<LANES>());
+    for (a, b) in a.iter().zip(b) {
+        for (sum, (a, b)) in sums.iter_mut().zip(a.iter().zip(b)) {
+            *sum += a * b;
+        }
+    }
+    let last: f64 = last_a.iter().zip(last_b).map(|(a, b)| a * b).sum();
+    sums.iter().sum::<f64>() + last
+}
