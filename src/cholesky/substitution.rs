@@ -115,15 +115,15 @@ impl Substitution {
 
     fn on_pieces(&self, factor: &[f64], threads: Par, work: impl Fn(&mut Part) + Sync) {
         let one = |part: &Mutex<Part>| work(&mut lock(part));
+        // Where not all threads can be started, what was done is done once more.
+        let alone = || self.pieces.iter().for_each(one);
+        let many = if factor.len() > SHARED { threads.degree() } else { 1 };
         #[cfg(feature = "solve")]
-        if threads.degree() > 1
-            && factor.len() > SHARED
-            && crate::parallel::map(threads.degree(), &self.pieces, one).is_ok()
-        {
-            return;
+        if many > 1 {
+            return crate::parallel::map(many, &self.pieces, one).map_or_else(|_| alone(), drop);
         }
-        // Where not all threads could be started, what was done is done once more.
-        self.pieces.iter().for_each(one);
+        debug_assert_eq!(many, 1, "threads come with the solvers");
+        alone();
     }
 }
 
