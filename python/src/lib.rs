@@ -24,6 +24,7 @@ static MEMORY: memory::Counted = memory::Counted;
 /// The compiled part of `voussoir`.
 #[pymodule]
 fn _core(module: &Bound<PyModule>) -> PyResult<()> {
+    memory::heed_threads();
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_class::<scene::Scene>()?;
     module.add_class::<answer::Answer>()?;
