@@ -30,6 +30,28 @@ fn wanted(threads: usize) -> usize {
     }
 }
 
+/// The results of two independent pieces of work: side by side where that is wanted and there are
+/// threads for it, one after the other otherwise.
+pub fn both<A, B: Send>(
+    wanted: bool,
+    first: impl FnOnce() -> A,
+    second: impl Fn() -> B + Sync,
+) -> (A, B) {
+    if !wanted || rayon::current_num_threads() < 2 {
+        return (first(), second());
+    }
+    thread::scope(|scope| {
+        let started = thread::Builder::new().stack_size(STACK).spawn_scoped(scope, &second);
+        let first = first();
+        let second = match started.map(|beside| beside.join()) {
+            Ok(Ok(second)) => second,
+            Ok(Err(panic)) => std::panic::resume_unwind(panic),
+            Err(_) => second(),
+        };
+        (first, second)
+    })
+}
+
 /// Does `work` for every item on so many threads (0 for as many as there are processors); the first
 /// error ends it.
 ///
@@ -104,6 +126,15 @@ pub fn try_map<T: Sync, R: Send, E: Send>(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn two_pieces_of_work_are_both_done() {
+        for wanted in [false, true] {
+            let mut first = 1;
+            assert_eq!(both(wanted, || std::mem::replace(&mut first, 2), || 3), (1, 3));
+            assert_eq!(first, 2);
+        }
+    }
 
     #[test]
     fn every_item_is_done_once_in_order_and_errors_end_the_work() {

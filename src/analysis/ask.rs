@@ -5,7 +5,9 @@
 use super::{
     Assessment, Control, Critical, Law, LoadFactor, Outcome, Proved, Question, Tilt,
     alike::Tilts,
-    assess, coulomb,
+    assess,
+    attempt::side_by_side,
+    coulomb,
     coulomb::DryLoadFactor,
     critical, follow,
     follow::{
@@ -34,6 +36,7 @@ use crate::{
     assembly::Wrench,
     error::{InputError, JsonPath},
     interface::Model,
+    parallel::both,
     scene::Scene,
 };
 use std::sync::Arc;
@@ -242,11 +245,17 @@ fn limited(
         return Err(error
             .hint("add \"loads\": { \"live\": [ { \"weight\": [1, 0, 0] } ] } to the scene, or ask `tilt`"));
     }
-    let bound = limit(model, control);
+    let asked = !options.skip_dead;
+    let beside = asked && side_by_side(model, control);
+    let (bound, dead) =
+        both(beside, || limit(model, control), || beside.then(|| assess(model, control)));
     // Where the answer itself says that λ = 0 is too much, there is nothing left to ask.
     let settled = bound.outcome == Outcome::Impossible
         || (bound.outcome == Outcome::Found && bound.bracket.upper < 0.0);
-    let dead = (!settled && !options.skip_dead).then(|| assess(model, control));
+    let dead = match asked && !settled {
+        true => dead.or_else(|| Some(assess(model, control))),
+        false => None,
+    };
     let dry = coulomb::beside(model, &bound, dead.as_ref().map(|d| d.verdict), control);
     Ok(Limited { bound, dry, dead })
 }
@@ -255,8 +264,13 @@ fn tilted(options: &TiltOptions, model: &Model, control: &Control) -> Result<Til
     let toward = directions(model.assembly.gravity, &options.toward, options.all);
     // All bounds before the first answer with dry friction: where time is short they are worth most.
     let tilts = Tilts::of(model, control);
-    let mut directions = tilts.bounds(&toward)?;
-    let level = (!options.skip_dead).then(|| assess(model, control));
+    let asked = !options.skip_dead;
+    let (directions, level) = both(
+        asked && side_by_side(model, control),
+        || tilts.bounds(&toward),
+        || asked.then(|| assess(model, control)),
+    );
+    let mut directions = directions?;
     let verdict = level.as_ref().map(|l| l.verdict);
     tilts.add_dry(&mut directions, verdict)?;
     Ok(Tilted { directions, level })

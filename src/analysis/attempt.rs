@@ -67,6 +67,12 @@ pub(super) fn is_large(statics: &Statics) -> bool {
     statics.matrix.columns >= LARGE
 }
 
+/// Whether two programs about a scene are solved side by side: where they are large, each leaves
+/// threads idle, and where time is short the first is worth more than half of both.
+pub(super) fn side_by_side(model: &Model, control: &Control) -> bool {
+    3 * model.contact_points() >= LARGE && !control.deadline.is_timed()
+}
+
 impl Rung {
     /// The usual one in forces; what a ladder names differs from it.
     pub const FORCES: Self = Self {
