@@ -19,7 +19,7 @@ mod step;
 mod structure;
 
 use self::{newton::Point, path::Data, reduced::Reduced, structure::Structure};
-use super::{Settings, Solution};
+use super::{Settings, Solution, Status};
 use crate::program::ConicProgram;
 use std::time::Instant;
 
@@ -32,6 +32,8 @@ pub struct Session {
     objective: Vec<f64>,
     settings: Settings,
     start: Instant,
+    /// [`path::HELD`] where the unknowns of a solve grew without bound, zero before.
+    held: f64,
     /// A point well inside that the last solve passed, where the next may begin.
     warm: Option<(Point, Vec<f64>)>,
 }
@@ -52,6 +54,7 @@ impl Session {
             objective: program.objective.clone(),
             settings: *settings,
             start,
+            held: 0.0,
             warm: None,
         })
     }
@@ -84,15 +87,20 @@ impl Session {
             b: pick(&self.rhs, &s.equalities),
             h: pick(&self.rhs, &s.cone_rows),
         };
-        let (found, status) = path::follow(
-            s,
-            &mut self.reduced,
-            &data,
-            &self.settings,
-            self.start,
-            &mut self.warm,
-            &mut trace,
-        );
+        let mut follow = |held, warm: &mut _| {
+            let (reduced, settings) = (&mut self.reduced, &self.settings);
+            path::follow(s, reduced, &data, settings, (self.start, held), warm, &mut trace)
+        };
+        let (mut found, mut status) = follow(self.held, &mut self.warm);
+        if self.held == 0.0 && path::has_grown(&found, status) {
+            let mut warm = None;
+            let (other, word) = follow(path::HELD, &mut warm);
+            let better = word == Status::Solved
+                || (word == Status::AlmostSolved && status == Status::Stalled);
+            if better {
+                (found, status, self.held, self.warm) = (other, word, path::HELD, warm);
+            }
+        }
         let (mut x, mut z) = (Vec::new(), Vec::new());
         if let Some(p) = found {
             (x, z) = (vec![0.0; self.objective.len()], vec![0.0; self.rhs.len()]);

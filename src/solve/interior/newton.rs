@@ -1,8 +1,9 @@
 //! Newton's step of the interior-point method, by way of the reduced system.
 //!
 //! `P dx + Eᵀ dy + Gᵀ dz = a_x`, `E dx = a_y`, `G dx − W² dz = a_z`, with the variables of the
-//! border `t` apart. With `K = P + Gᵀ W⁻² G`, `M = Gᵀ W⁻² G_t` and `N = E_t − E K⁻¹ M` it is `S dy
-//! − N dt = E K⁻¹ b − a_y`, `Nᵀ dy + Q dt = b_t − Mᵀ K⁻¹ b`.
+//! border `t` apart; `P` has the proximal term of [`Reduced`] on its diagonal. With `K = P + Gᵀ W⁻²
+//! G`, `M = Gᵀ W⁻² G_t` and `N = E_t − E K⁻¹ M` it is `S dy − N dt = E K⁻¹ b − a_y`, `Nᵀ dy + Q dt =
+//! b_t − Mᵀ K⁻¹ b`.
 
 use super::{cones::Cones, reduced::Reduced, structure::Structure};
 
@@ -170,6 +171,10 @@ impl<'a> Newton<'a> {
         let mut r = a.clone();
         for ((r, x), q) in r.x.iter_mut().zip(&d.x).zip(&s.quadratic) {
             *r -= q * x;
+        }
+        let held = self.reduced.proximal;
+        if held > 0.0 {
+            r.x.iter_mut().zip(&d.x).for_each(|(r, x)| *r -= held * x);
         }
         s.e.add_transposed(-1.0, &d.y, &mut r.x);
         s.g.add_transposed(-1.0, &d.z, &mut r.x);

@@ -37,6 +37,21 @@ const LEAST_STEP: f64 = 1e-6;
 /// More: time at the noise level.
 const PATIENCE: usize = 8;
 
+/// Where the method runs on springs held by this × the mean of the cones' products, unknowns that
+/// nothing limits stay where they are. Larger: more iterations. Smaller: they grow until rounding
+/// of them is all that equilibrium has left.
+pub(super) const HELD: f64 = 1e-3;
+
+/// Unknowns beyond this have grown because nothing limits them: forces of grains that are jammed
+/// between others. Larger: such programs stay unsolved. Smaller: others that stall are solved twice.
+const GROWN: f64 = 1e3;
+
+/// Whether a path may have stalled because unknowns grew without bound.
+pub(super) fn has_grown(found: &Option<Point>, status: Status) -> bool {
+    matches!(status, Status::Stalled | Status::AlmostSolved)
+        && found.as_ref().is_some_and(|p| greatest(&p.x) > GROWN)
+}
+
 /// Objective and right-hand sides.
 pub(super) struct Data {
     /// Objective of the local variables and of the border.
@@ -92,6 +107,7 @@ fn begin(
     data: &Data,
 ) -> Option<(Point, Vec<f64>)> {
     cones.reset();
+    reduced.proximal = 0.0;
     let zero = Point::zero(st);
     let mut newton = Newton::new(st, reduced, cones)?;
     let primal =
@@ -115,13 +131,16 @@ fn begin(
     Some((Point { x: primal.x, t: primal.t, y: dual.y, z: inside(dual.z) }, s))
 }
 
-/// Solves the program from the warm point, if there is one. `start` is when this solve began.
+/// Solves the program from the warm point, if there is one. `start` is when this solve began. Every
+/// step is that of the program with `½ ρ ‖x − x₀‖²` added, where `x₀` is the point that it starts from
+/// and `ρ` is `held` × the mean of the cones' products (S. Pougkakiotis and J. Gondzio 2021): it ends
+/// in the same places, and where the solutions are an unbounded set it ends.
 pub(super) fn follow(
     st: &Structure,
     reduced: &mut Reduced,
     data: &Data,
     settings: &Settings,
-    start: Instant,
+    (start, held): (Instant, f64),
     warm: &mut Option<(Point, Vec<f64>)>,
     trace: &mut Vec<Iteration>,
 ) -> (Option<Point>, Status) {
@@ -188,6 +207,7 @@ pub(super) fn follow(
             return give(best, Status::Stalled);
         }
         let mu = gap / degree;
+        reduced.proximal = held * mu;
         let Some(mut newton) = Newton::new(st, reduced, &cones) else {
             return give(best, Status::Stalled);
         };

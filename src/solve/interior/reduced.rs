@@ -35,6 +35,8 @@ pub(super) struct Reduced {
     values: Vec<f64>,
     /// Square roots of the diagonal, inverted.
     jacobi: Vec<f64>,
+    /// Added to the diagonal of `K`; zero but where forces would grow without bound ([`super::path`]).
+    pub proximal: f64,
     cholesky: Cholesky,
 }
 
@@ -76,6 +78,7 @@ impl Reduced {
             root_start,
             values: vec![0.0; row.len()],
             jacobi: vec![0.0; rows],
+            proximal: 0.0,
             cholesky: Cholesky::new(Pattern { starts: starts.clone(), rows: row.clone() })?,
             starts,
             rows: row,
@@ -88,12 +91,12 @@ impl Reduced {
         for (index, block) in structure.blocks.iter().enumerate() {
             let root = &mut self.roots[self.root_start[index]..self.root_start[index + 1]];
             let n = block.variables.len();
-            if block.plain {
+            if block.plain && self.proximal == 0.0 {
                 let cone = &structure.cones[block.cones[0]];
                 for k in 0..n {
                     cones.column(cone, k, false, &mut root[k * n..(k + 1) * n]);
                 }
-            } else if !root_of(structure, cones, index, &mut scratch, root) {
+            } else if !root_of(structure, cones, index, self.proximal, &mut scratch, root) {
                 return false;
             }
         }
@@ -198,6 +201,7 @@ fn root_of(
     structure: &Structure,
     cones: &Cones,
     index: usize,
+    proximal: f64,
     q: &mut Vec<f64>,
     root: &mut [f64],
 ) -> bool {
@@ -222,10 +226,9 @@ fn root_of(
         }
         at += cone.size;
     }
-    if !structure.quadratic.is_empty() {
-        for k in 0..n {
-            q[k * rows + at + k] = structure.quadratic[first + k].sqrt();
-        }
+    for k in 0..n {
+        let own = structure.quadratic.get(first + k).copied().unwrap_or(0.0);
+        q[k * rows + at + k] = (own + proximal).sqrt();
     }
     // Gram and Schmidt, modified, twice; R upper triangular, column by column.
     let mut r = [0.0; MOST_ROWS * MOST_ROWS];
