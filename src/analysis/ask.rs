@@ -245,17 +245,13 @@ fn limited(
         return Err(error
             .hint("add \"loads\": { \"live\": [ { \"weight\": [1, 0, 0] } ] } to the scene, or ask `tilt`"));
     }
-    let asked = !options.skip_dead;
-    let beside = asked && side_by_side(model, control);
-    let (bound, dead) =
-        both(beside, || limit(model, control), || beside.then(|| assess(model, control)));
+    let dead = || assess(model, control);
+    let beside = !options.skip_dead && side_by_side(model, control);
+    let (bound, early) = both(beside, || limit(model, control), || beside.then(dead));
     // Where the answer itself says that λ = 0 is too much, there is nothing left to ask.
     let settled = bound.outcome == Outcome::Impossible
         || (bound.outcome == Outcome::Found && bound.bracket.upper < 0.0);
-    let dead = match asked && !settled {
-        true => dead.or_else(|| Some(assess(model, control))),
-        false => None,
-    };
+    let dead = (!settled && !options.skip_dead).then(|| early.unwrap_or_else(dead));
     let dry = coulomb::beside(model, &bound, dead.as_ref().map(|d| d.verdict), control);
     Ok(Limited { bound, dry, dead })
 }

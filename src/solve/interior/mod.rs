@@ -32,8 +32,8 @@ pub struct Session {
     objective: Vec<f64>,
     settings: Settings,
     start: Instant,
-    /// [`path::HELD`] where the unknowns of a solve grew without bound, zero before.
-    held: f64,
+    /// How the unknowns are held ([`path::HELD`] or zero), once those of a solve grew without bound.
+    held: Option<f64>,
     /// A point well inside that the last solve passed, where the next may begin.
     warm: Option<(Point, Vec<f64>)>,
 }
@@ -54,7 +54,7 @@ impl Session {
             objective: program.objective.clone(),
             settings: *settings,
             start,
-            held: 0.0,
+            held: None,
             warm: None,
         })
     }
@@ -79,7 +79,7 @@ impl Session {
 
     /// Solves the program as it stands.
     pub fn solve(&mut self) -> Solution {
-        let (mut trace, s) = (Vec::new(), &self.structure);
+        let s = &self.structure;
         let pick = |from: &[f64], at: &[usize]| at.iter().map(|&k| from[k]).collect::<Vec<f64>>();
         let data = Data {
             c: pick(&self.objective, &s.variables),
@@ -88,17 +88,24 @@ impl Session {
             h: pick(&self.rhs, &s.cone_rows),
         };
         let mut follow = |held, warm: &mut _| {
-            let (reduced, settings) = (&mut self.reduced, &self.settings);
-            path::follow(s, reduced, &data, settings, (self.start, held), warm, &mut trace)
+            let (reduced, settings, mut trace) = (&mut self.reduced, &self.settings, Vec::new());
+            let (found, status) =
+                path::follow(s, reduced, &data, settings, (self.start, held), warm, &mut trace);
+            (found, status, trace)
         };
-        let (mut found, mut status) = follow(self.held, &mut self.warm);
-        if self.held == 0.0 && path::has_grown(&found, status) {
+        let (mut found, mut status, mut trace) = follow(self.held.unwrap_or(0.0), &mut self.warm);
+        if self.held.is_none() && path::has_grown(&found, status) {
             let mut warm = None;
-            let (other, word) = follow(path::HELD, &mut warm);
+            let (other, word, mut more) = follow(path::HELD, &mut warm);
             let better = word == Status::Solved
                 || (word == Status::AlmostSolved && status == Status::Stalled);
+            // The last iteration is that of the answer; what does not help is not tried again.
             if better {
-                (found, status, self.held, self.warm) = (other, word, path::HELD, warm);
+                trace.append(&mut more);
+                (found, status, self.held, self.warm) = (other, word, Some(path::HELD), warm);
+            } else {
+                more.append(&mut trace);
+                (trace, self.held) = (more, Some(0.0));
             }
         }
         let (mut x, mut z) = (Vec::new(), Vec::new());
