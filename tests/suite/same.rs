@@ -106,12 +106,14 @@ fn threads_change_no_byte() {
 
 #[test]
 fn a_time_limit_that_is_not_reached_changes_no_byte() {
-    // Under a limit the engine runs on a thread of its own.
+    // Under a limit the engine runs on a thread of its own, and a bound and the verdict beside it one
+    // after the other.
     let folder = Path::new(STRUCTURES);
     for args in [
         &["assess", "squeezed-block.json", "--json"][..],
         &["limit", "two-block-column.json", "--json"],
         &["limit", "wall-with-openings.json", "--json", "--law", "associative"],
+        &["limit", "running-bond-wall-40.json", "--json", "--law", "associative"],
     ] {
         assert!(
             answer(folder, &[args, &["--time-limit", "1000"]].concat()) == answer(folder, args),
