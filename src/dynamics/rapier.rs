@@ -247,7 +247,14 @@ impl<'a> World<'a> {
     }
 
     /// Goes on with other steps; contacts become as stiff as these allow.
+    ///
+    /// Where grains have faces, friction is that of each point from here on. That of a patch acts
+    /// in the middle of all its points, those that are about to touch among them: a grain on one
+    /// corner came to rest where nothing holds it, held by friction beside the corner.
     pub fn refine(&mut self, step: Step) {
+        if self.hooks.pointed {
+            self.parameters.friction_model = FrictionModel::Coulomb;
+        }
         self.parameters.dt = step.dt;
         self.parameters.num_solver_iterations = step.iterations;
         self.parameters.contact_softness = softness(step);
@@ -377,11 +384,12 @@ impl<'a> World<'a> {
 
     /// Forces of all contact patches that carry any, in the order of the colliders.
     ///
-    /// A normal impulse is the sum over the substeps of the last step; of a patch's friction the
-    /// engine keeps the last substep's impulse, the same on every point. At rest all substeps are
+    /// A normal impulse is the sum over the substeps of the last step; of friction the engine keeps
+    /// the last substep's impulse, that of a patch on every point of it. At rest all substeps are
     /// alike.
     pub fn patches(&self) -> Vec<Patch> {
         let (dt, substeps) = (self.parameters.dt, self.parameters.num_solver_iterations as f64);
+        let shared = self.parameters.friction_model == FrictionModel::Simplified;
         let mut list = Vec::new();
         for pair in self.narrow_phase.contact_pairs() {
             let PairContacts::Rigid(contacts) = &pair.contacts else { continue };
@@ -401,9 +409,10 @@ impl<'a> World<'a> {
                 if normal_force <= 0.0 {
                     continue;
                 }
-                let friction =
-                    active().next().map_or(Vector::ZERO, |p| p.data.warmstart_tangent_world)
-                        * (substeps / dt);
+                let own = active().take(if shared { 1 } else { usize::MAX });
+                let friction = own
+                    .fold(Vector::ZERO, |sum, p| sum + p.data.warmstart_tangent_world)
+                    * (substeps / dt);
                 let normal = back(manifold.data.normal);
                 let force = normal * normal_force - back(friction);
                 list.push((

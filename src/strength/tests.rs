@@ -1,5 +1,5 @@
 use super::{
-    crushing::{crushing, edge_bounds},
+    crushing::{closing_volume, crushing, edge_bounds},
     section::Section,
     shares,
     shares::coordinates,
@@ -121,6 +121,24 @@ pub(crate) fn polygon() -> impl Strategy<Value = Interface> {
     })
 }
 
+/// A square of which one corner closes while the next but one opens, by how much does not matter:
+/// the plane through three corners that leaves the fourth free, not the fit of all four, lifted.
+#[test]
+fn corners_that_open_on_their_own_cost_nothing() {
+    let square = rectangle(1.0, 1.0);
+    assert_eq!(closing_volume(&square, &[-1.0, -0.5, 0.0, -2.0]), 0.0);
+    for (rates, want) in [
+        // Affine: the plane itself.
+        ([1.0, 1.0, 0.0, 0.0], 0.5),
+        ([1.0, 0.0, -1.0, 0.0], 1.0 / 6.0),
+        // The third corner is free.
+        ([1.0, 0.0, -3.0, 0.0], 1.0 / 6.0),
+    ] {
+        let volume = closing_volume(&square, &rates);
+        assert!((volume - want).abs() < 1e-9, "{rates:?}: {volume} {want}");
+    }
+}
+
 proptest! {
     #[test]
     fn shares_have_the_area_and_its_first_moment(face in polygon()) {
@@ -150,6 +168,29 @@ proptest! {
             let moment: f64 = distances.iter().zip(&forces).map(|(d, f)| d * f).sum();
             prop_assert!(total * total <= 2.0 * sigma * width * moment * (1.0 + 1e-9));
         }
+    }
+
+    /// No pressure gains more power on corners that close by themselves than what the joint gives
+    /// way by, and no other affine function above their rates bounds it lower.
+    #[test]
+    fn what_closes_is_the_greatest_power_and_the_least_volume(
+        face in polygon(),
+        rates in prop::collection::vec(-1.0f64..1.0, 12),
+        (angle, steep, offset) in (0.0f64..6.3, 0.0f64..4.0, -1.0f64..1.0),
+    ) {
+        let section = Section::new(&face);
+        let rates = &rates[..section.corners.len()];
+        let volume = closing_volume(&face, rates);
+        let slope = P2::new(angle.cos(), angle.sin());
+        let (area, moment) = section.pressed(offset - slope.dot(&centroid(&section)), slope);
+        prop_assume!(area > 1e-6);
+        let corners = coordinates(&section.corners, moment / area);
+        let power: f64 = corners.iter().zip(rates).map(|(w, v)| w * area * v).sum();
+        prop_assert!(power <= volume + 1e-9, "{power} {volume}");
+        let slope = slope * steep;
+        let above = section.corners.iter().zip(rates).map(|(p, v)| v - slope.dot(p));
+        let value = above.fold(f64::NEG_INFINITY, f64::max);
+        prop_assert!(volume <= section.positive(value, slope).1 * (1.0 + 1e-9) + 1e-15);
     }
 
     #[test]
