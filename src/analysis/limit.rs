@@ -22,7 +22,8 @@ use crate::{
     terms::{Attempt, Bracket, Deciding, Outcome},
     tolerance,
     verdict::{
-        Forces, Rate, Verdict, certificate, check,
+        Evidence, Forces, Rate, Verdict, certificate,
+        check::{self, Claim},
         exact::{
             existence,
             motion::{self, MotionProof},
@@ -468,6 +469,11 @@ impl Formulation {
     }
 }
 
+/// Joints with no more than this × the greatest force of all carry rounding, which does not balance
+/// blocks that no live load acts on; the first that is enough. Larger: loads are left unbalanced.
+/// Smaller: rounding stays.
+const ROUNDING: [f64; 3] = [1e-13, 1e-11, 1e-9];
+
 /// Is there no load factor at all, or no limit to it? Returns true where that is the answer.
 fn diagnose(model: &Model, control: &Control, answer: &mut LoadFactor) -> bool {
     let Model { assembly, interfaces, .. } = model;
@@ -489,11 +495,22 @@ fn diagnose(model: &Model, control: &Control, answer: &mut LoadFactor) -> bool {
         answer.outcome = Outcome::Unbounded;
         answer.value = None;
         answer.bracket = Bracket { lower: f64::INFINITY, upper: f64::INFINITY };
-        answer.base = Some((any.load_factor, any.forces));
-        answer.forces = no_forces(interfaces);
-        for (k, forces) in kept.into_iter().zip(&wedge.forces) {
-            answer.forces[k] = forces.iter().map(|&v| v * (1.0 / natural)).collect();
+        let mut forces = no_forces(interfaces);
+        for (k, own) in kept.into_iter().zip(&wedge.forces) {
+            forces[k] = own.iter().map(|&v| v * (1.0 / natural)).collect();
         }
+        let claim = Claim::Unbounded { standing: any.load_factor };
+        let proves = |forces: &Forces| {
+            let evidence = Evidence { forces, base: Some(&any.forces), rates: &[] };
+            check::verify(model, &claim, evidence).proved()
+        };
+        if !proves(&forces)
+            && let Some(mended) =
+                ROUNDING.iter().map(|share| mend::without(&forces, *share)).find(proves)
+        {
+            forces = mended;
+        }
+        (answer.forces, answer.base) = (forces, Some((any.load_factor, any.forces)));
         return true;
     }
     false

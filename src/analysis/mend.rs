@@ -13,7 +13,7 @@
 
 use super::attempt::is_large;
 use crate::{
-    assembly::Assembly,
+    assembly::{Assembly, Wrench},
     deadline::Deadline,
     interface::{Interface, Interfaces, Model},
     program::{Statics, StaticsOptions, Unknowns, opening},
@@ -29,6 +29,18 @@ use crate::{
     },
 };
 use nalgebra::Vector3;
+
+/// Forces without those of joints that carry no more than this share of the greatest of all.
+pub(super) fn without(forces: &Forces, share: f64) -> Forces {
+    let most = |joint: &[Wrench]| {
+        joint.iter().map(|w| w.force.amax().max(w.moment.amax())).fold(0.0, f64::max)
+    };
+    let least = share * forces.iter().map(|joint| most(joint)).fold(0.0, f64::max);
+    let kept = |joint: &Vec<Wrench>| {
+        if most(joint) > least { joint.clone() } else { vec![Wrench::zero(); joint.len()] }
+    };
+    forces.iter().map(kept).collect()
+}
 
 /// Forces cut to their cones, and further inside by this share. Larger: unbalances above rounding.
 /// Smaller: rounding of the cut itself.

@@ -13,6 +13,7 @@ use voussoir::{
     proof::{self, answer::FactorStatus},
     report::text,
     scene::{Scene, read_str},
+    study::cross,
     verdict::Verdict,
 };
 
@@ -439,5 +440,35 @@ fn verbs_agree_about_domes_with_windows() {
         let line = String::from_utf8(out.stdout).unwrap();
         let words = "no λ with dry friction: not at rest under the dead load";
         assert!(line.contains(words) && out.status.code() == Some(1), "{line}: {:?}", out.status);
+    }
+}
+
+/// Random scenes that earlier versions left without an answer: a load that wedges beside blocks
+/// without one, on which engines leave rounding; joints that crush while they slide and twist, whose
+/// bracket stayed open; the same that fall under any load; and grains that no push may reach.
+#[test]
+fn scenes_that_were_left_open_have_an_answer() {
+    let asked = |seed, index| {
+        let scene = cross::scene(seed, index).unwrap().0;
+        let model = ask::model(&scene);
+        let bound = limit(&model, &Control::default());
+        assert!(bound.claim().is_some(), "{}: {:?}", scene.name, bound.findings());
+        (model, bound)
+    };
+    for (seed, index) in [(88001, 389), (88001, 398), (88002, 448)] {
+        assert_eq!(asked(seed, index).1.outcome, Outcome::Unbounded, "{seed} {index}");
+    }
+    for (seed, index) in [(88001, 285), (88002, 53), (88002, 283)] {
+        assert_eq!(asked(seed, index).1.outcome, Outcome::Impossible, "{seed} {index}");
+    }
+    for (seed, index) in [(88001, 141), (88001, 200), (88002, 213)] {
+        let bound = asked(seed, index).1;
+        assert_eq!(bound.outcome, Outcome::Found, "{seed} {index}");
+        assert!(bound.bracket.width() <= 1e-6 * bound.value.unwrap(), "{:?}", bound.bracket);
+    }
+    for (seed, index) in [(88001, 156), (88002, 266)] {
+        let (model, bound) = asked(seed, index);
+        let dry = coulomb::load_factor(&model, &bound, &Control::default());
+        assert_eq!((dry.found, dry.value), (Found::RestsBelow, Some(0.0)), "{seed} {index}");
     }
 }

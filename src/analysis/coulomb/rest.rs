@@ -18,7 +18,7 @@ use crate::{
     parallel,
     terms::{Found, MANY, StateMotion},
     tolerance,
-    verdict::{Verdict, check, law},
+    verdict::{Forces, Verdict, check, law},
 };
 
 /// Where the state is asked on the way to a value, in shares of it. Fewer: what comes loose on the
@@ -172,6 +172,10 @@ pub(in crate::analysis) fn up_to_rest(
     control: &Control,
 ) -> DryLoadFactor {
     let bound = associative.value.filter(|_| associative.outcome == Outcome::Found);
+    // Nothing may be added to the dead load, as far as numbers tell: the value is zero where that
+    // rests.
+    let least = tolerance::LOAD_FACTOR_FLOOR * check::natural_factor(assembly);
+    let nothing_more = bound.is_some() && associative.bracket.upper.abs() <= least;
     let negative = answer.value.is_some_and(|v| v < 0.0) || bound.is_some_and(|b| b <= 0.0);
     if !matches!(associative.outcome, Outcome::Found | Outcome::Unbounded) {
         return answer;
@@ -186,7 +190,7 @@ pub(in crate::analysis) fn up_to_rest(
         (answer.found, answer.value) = (Found::NotAtRest, None);
         return answer;
     }
-    if negative || control.deadline.is_over() {
+    if (negative && !nothing_more) || control.deadline.is_over() {
         return answer;
     }
     let mut probe = Probe { at, control, seen: Vec::new() };
@@ -206,7 +210,9 @@ pub(in crate::analysis) fn up_to_rest(
             (answer.found, answer.value) = (Found::Undecided, None)
         }
     }
-    if rests == Some(StateMotion::Rests) {
+    if rests == Some(StateMotion::Rests) && nothing_more {
+        rests_below(&mut answer, (0.0, &associative.forces));
+    } else if rests == Some(StateMotion::Rests) {
         climb(&mut probe, &mut answer, associative, assembly);
     }
     answer
@@ -272,9 +278,7 @@ fn climb(
             && associative.value.is_some_and(|b| rests_at >= (1.0 - tolerance::REST_WITHIN) * b);
         let is_open = answer.found == Found::Undecided;
         if let Some((rests_at, state)) = probe.rests().filter(|_| is_near && is_open) {
-            (answer.found, answer.value) = (Found::RestsBelow, Some(*rests_at));
-            answer.forces.clone_from(&state.forces);
-            (answer.natural_map, answer.natural_map_in_loads) = (f64::INFINITY, f64::INFINITY);
+            rests_below(answer, (*rests_at, &state.forces));
         }
         return;
     };
@@ -289,5 +293,12 @@ fn climb(
         answer.forces.clone_from(&state.forces);
     }
     answer.rates = law::motion(&(probe.at)(*moves_at), &moving.forces).rates;
+    (answer.natural_map, answer.natural_map_in_loads) = (f64::INFINITY, f64::INFINITY);
+}
+
+/// The load factor up to which it was seen at rest is the value, with forces that hold it there.
+fn rests_below(answer: &mut DryLoadFactor, (rests_at, forces): (f64, &Forces)) {
+    (answer.found, answer.value) = (Found::RestsBelow, Some(rests_at));
+    answer.forces.clone_from(forces);
     (answer.natural_map, answer.natural_map_in_loads) = (f64::INFINITY, f64::INFINITY);
 }
