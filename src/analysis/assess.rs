@@ -123,6 +123,13 @@ fn holds(model: &Model, forces: &Forces) -> bool {
     check::verify(model, &Claim::Stable, Evidence::new(forces, &[])).proved()
 }
 
+/// Whether forces of the live load alone prove that it may grow without limit, beside those that
+/// hold the scene at some load factor.
+pub(super) fn wedges(model: &Model, (standing, base): (f64, &Forces), forces: &Forces) -> bool {
+    let evidence = Evidence { forces, base: Some(base), rates: &[] };
+    check::verify(model, &Claim::Unbounded { standing }, evidence).proved()
+}
+
 /// An answer that says nothing yet but these forces and the ends of the least unbalance.
 pub(super) fn from_forces(model: &Model, forces: Forces, [lower, upper]: [f64; 2]) -> Assessment {
     Assessment {

@@ -8,7 +8,7 @@
 
 use super::{
     Proved,
-    assess::least_unbalance,
+    assess::{least_unbalance, wedges},
     attempt::{Control, Rung, is_large, run, steps},
     mend, parts,
 };
@@ -22,8 +22,7 @@ use crate::{
     terms::{Attempt, Bracket, Deciding, Outcome},
     tolerance,
     verdict::{
-        Evidence, Forces, Rate, Verdict, certificate,
-        check::{self, Claim},
+        Forces, Rate, Verdict, certificate, check,
         exact::{
             existence,
             motion::{self, MotionProof},
@@ -499,11 +498,7 @@ fn diagnose(model: &Model, control: &Control, answer: &mut LoadFactor) -> bool {
         for (k, own) in kept.into_iter().zip(&wedge.forces) {
             forces[k] = own.iter().map(|&v| v * (1.0 / natural)).collect();
         }
-        let claim = Claim::Unbounded { standing: any.load_factor };
-        let proves = |forces: &Forces| {
-            let evidence = Evidence { forces, base: Some(&any.forces), rates: &[] };
-            check::verify(model, &claim, evidence).proved()
-        };
+        let proves = |forces: &Forces| wedges(model, (any.load_factor, &any.forces), forces);
         if !proves(&forces)
             && let Some(mended) =
                 ROUNDING.iter().map(|share| mend::without(&forces, *share)).find(proves)
