@@ -298,8 +298,9 @@ pub const DRY_BALANCE: f64 = 1e-4;
 pub const SKIN: f64 = 2e-5;
 
 /// As [`SKIN`], for hulls that flow: contacts are softer there. Larger: edges are visibly round, and
-/// hulls that touch overlap at their corners by as much (6e-4 d). Smaller: the engine's normals
-/// are more often those of its search for the way out.
+/// hulls that touch overlap at their corners by as much (6e-4 d). Smaller: contacts sink in deeper
+/// than it, where the engine's normals are those of its search for the way out, and fewer heaps
+/// have admissible forces (1e-4: 9 of 10).
 pub const GRAIN_SKIN: f64 = 5e-4;
 
 /// [`SKIN`] is at most this × the thickness of the thinnest piece of the block. Larger: thin plates
