@@ -48,8 +48,12 @@ impl Statics {
             }
             for (weights, capacity) in &section.cuts {
                 let row = p.cone(Cone::NonNegative(1));
-                add(p, row, &mut weights.iter().map(|w| -w), section.strength * capacity);
-                p.rhs[row] += 1.0;
+                // A bound on a strip that is next to nothing has coefficients of the size of one.
+                let most = bearings.iter().zip(weights).map(|(b, w)| (w * b.unit).abs());
+                let bears = section.strength * capacity;
+                let per = most.fold(bears, f64::max);
+                add(p, row, &mut weights.iter().map(|w| -w), per);
+                p.rhs[row] += bears / per;
             }
         }
     }
