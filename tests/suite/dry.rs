@@ -14,7 +14,10 @@ use voussoir::{
     report::text,
     scene::{Scene, read_str},
     study::cross,
-    verdict::Verdict,
+    verdict::{
+        Evidence, Verdict,
+        check::{self, Claim},
+    },
 };
 
 /// The dry load factor of a block in a groove of 45° at μ = 0.5 pushed along it: μ / √(sin² ω − μ²
@@ -471,4 +474,16 @@ fn scenes_that_were_left_open_have_an_answer() {
         let dry = coulomb::load_factor(&model, &bound, &Control::default());
         assert_eq!((dry.found, dry.value), (Found::RestsBelow, Some(0.0)), "{seed} {index}");
     }
+    // Forces beside tensile strengths, a little outside of their cones as the engine leaves them.
+    let (model, bound) = asked(88002, 340);
+    let dry = coulomb::load_factor(&model, &bound, &Control::default());
+    assert!(dry.found == Found::FixedPoint && dry.claim().is_some(), "{:?}", dry.findings());
+    // Bounds on strips of next to no area. What falls is not said to fall under any load: this load
+    // has power on it.
+    let (model, _) = asked(88001, 182);
+    let falls = assess(&model, &Control::default());
+    assert_eq!(falls.verdict, Verdict::Unstable);
+    let evidence = Evidence::new(&falls.forces, &falls.rates);
+    assert!(check::verify(&model, &Claim::Unstable, evidence).proved());
+    assert!(!check::verify(&model, &Claim::Impossible, evidence).proved());
 }

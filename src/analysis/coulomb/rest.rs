@@ -175,7 +175,7 @@ pub(in crate::analysis) fn up_to_rest(
     // Nothing may be added to the dead load, as far as numbers tell: the value is zero where that
     // rests.
     let least = tolerance::LOAD_FACTOR_FLOOR * check::natural_factor(assembly);
-    let nothing_more = bound.is_some() && associative.bracket.upper.abs() <= least;
+    let nothing_more = bound.is_some() && associative.bracket.upper <= least;
     let negative = answer.value.is_some_and(|v| v < 0.0) || bound.is_some_and(|b| b <= 0.0);
     if !matches!(associative.outcome, Outcome::Found | Outcome::Unbounded) {
         return answer;

@@ -13,9 +13,9 @@ use crate::{
     },
 };
 
-/// A sum of powers is exact to this × the sum of their sizes, for scenes of up to 1e4 blocks that
-/// move. Larger: less far-reaching proofs. Smaller: rounding counts as exact.
-const ROUNDING: f64 = 1e-14;
+/// A sum of powers is exact to this × the sum of their sizes: for a thousand blocks that move, if
+/// all roundings add up. Larger: less far-reaching proofs. Smaller: rounding counts as exact.
+const ROUNDING: f64 = 1e-12;
 
 /// The rates gain no power from the live load, so that no multiple of it stops them.
 pub(super) fn without_live_power(f: &mut Findings, model: &Model, rates: &[Rate]) {
