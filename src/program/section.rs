@@ -7,6 +7,11 @@
 use super::{Cone, ConicProgram, Statics, bearing::Bearing};
 use crate::strength::crushing::Cut;
 
+/// Rows of bounds are in units of what they allow, unless coefficients would be greater than this:
+/// strips of next to no area. Larger: the engine stalls at its first iteration. Smaller: other rows
+/// change, and load factors with dry friction are lost.
+const GREATEST: f64 = 1e4;
+
 impl Statics {
     /// Adds the bounds that forces break, `(interface, bound)`.
     pub fn bound(&mut self, broken: &[(usize, Cut)]) {
@@ -48,10 +53,9 @@ impl Statics {
             }
             for (weights, capacity) in &section.cuts {
                 let row = p.cone(Cone::NonNegative(1));
-                // A bound on a strip that is next to nothing has coefficients of the size of one.
                 let most = bearings.iter().zip(weights).map(|(b, w)| (w * b.unit).abs());
                 let bears = section.strength * capacity;
-                let per = most.fold(bears, f64::max);
+                let per = most.fold(bears, |per, c| per.max(c / GREATEST));
                 add(p, row, &mut weights.iter().map(|w| -w), per);
                 p.rhs[row] += bears / per;
             }
