@@ -36,16 +36,23 @@ pub enum FrictionLimits<'a> {
     Held(HeldQuantity, &'a [f64]),
     /// Coulomb's law: the normal force of the same rates.
     Law,
+    /// The same with its corners rounded: gap × pressure is the square of this share of the load
+    /// that presumably passes, instead of nothing, and friction turns from sticking to sliding over
+    /// forces of that size.
+    Rounded(f64),
 }
 
 impl<'a> FrictionLimits<'a> {
     /// The same for the discs of one point.
-    fn of(self, joint: &Joint, point: &SlidingPoint) -> Self {
+    fn of(self, contacts: &Contacts, joint: &Joint, point: &SlidingPoint) -> Self {
         match self {
             Self::Held(quantity, held) => {
                 Self::Held(quantity, &held[joint.disc..joint.disc + point.discs.len()])
             }
-            Self::Law => Self::Law,
+            Self::Rounded(by) if !point.discs.is_empty() => {
+                Self::Rounded(by * contacts.passing[joint.disc])
+            }
+            Self::Law | Self::Rounded(_) => self,
         }
     }
 }
@@ -175,7 +182,7 @@ impl Response {
         for (joint, point) in self.joints.iter().zip(&contacts.points) {
             let (n, c) = (point.columns, contacts.compliance[point.column]);
             let wanted = self.wanted(joint, n, c * contacts.column_images[point.column], q);
-            let f = answer(point, c, friction.of(joint, point), &wanted, None);
+            let f = answer(point, c, friction.of(contacts, joint, point), &wanted, None);
             forces[point.column..point.column + n].copy_from_slice(&f[..n]);
             for (side, rows) in joint.blocks.iter().enumerate() {
                 for (k, f) in f.iter().enumerate().take(n).filter(|(_, f)| **f != 0.0) {
@@ -207,7 +214,7 @@ impl Response {
             let all = c * contacts.column_images[point.column];
             let wanted = self.wanted(joint, n, all, q);
             let mut slope = [[0.0; MOST]; MOST];
-            answer(point, c, friction.of(joint, point), &wanted, Some(&mut slope));
+            answer(point, c, friction.of(contacts, joint, point), &wanted, Some(&mut slope));
             if mirrored {
                 let given = slope;
                 for (i, row) in slope.iter_mut().enumerate() {
@@ -302,6 +309,10 @@ fn answer(
         onto_cone(&mut f, at, [disc.slope, disc.constant, tension], slope);
         return f;
     }
+    if let FrictionLimits::Rounded(by) = friction {
+        rounded(point, by, &mut f, slope);
+        return f;
+    }
     if f[0] < -point.tension {
         f[0] = -point.tension;
         if let Some(slope) = slope.as_deref_mut() {
@@ -318,7 +329,7 @@ fn answer(
         let s = match friction {
             FrictionLimits::Held(HeldQuantity::Limits, held) => held.get(k).copied().unwrap_or(0.0),
             FrictionLimits::Held(HeldQuantity::SlidingRates, _) => disc.constant,
-            FrictionLimits::Law => disc.limit(f[0]),
+            FrictionLimits::Law | FrictionLimits::Rounded(_) => disc.limit(f[0]),
         };
         let at = disc.first - point.column..disc.first - point.column + disc.count;
         let cut = onto_disc(&mut f, at.clone(), s, slope.as_deref_mut());
@@ -332,6 +343,49 @@ fn answer(
         }
     }
     f
+}
+
+/// The forces of a point where Coulomb's law has corners rounded by `by`, a force.
+fn rounded(
+    point: &SlidingPoint,
+    by: f64,
+    f: &mut [f64; MOST],
+    mut slope: Option<&mut [[f64; MOST]; MOST]>,
+) {
+    let mut normal = 1.0;
+    if point.tension.is_finite() {
+        let above = f[0] + point.tension;
+        let root = above.hypot(2.0 * by);
+        f[0] = 0.5 * (above + root) - point.tension;
+        normal = 0.5 * (1.0 + above / root);
+    }
+    if f[0] > point.most {
+        (f[0], normal) = (point.most, 0.0);
+    }
+    if let Some(slope) = slope.as_deref_mut() {
+        slope[0][0] = normal;
+    }
+    for disc in &point.discs {
+        let at = disc.first - point.column..disc.first - point.column + disc.count;
+        let s = disc.limit(f[0]);
+        let size = f[at.clone()].iter().map(|v| v * v).sum::<f64>().sqrt().hypot(by);
+        let over = size - s;
+        let root = over.hypot(2.0 * by);
+        // The greater of the two, rounded.
+        let greater = 0.5 * (size + s + root);
+        let (by_size, by_limit) = (0.5 * (1.0 + over / root), 0.5 * (1.0 - over / root));
+        let share = s / greater;
+        if let Some(slope) = slope.as_deref_mut() {
+            for i in at.clone() {
+                slope[i][0] = disc.slope * normal * f[i] * (1.0 - share * by_limit) / greater;
+                for j in at.clone() {
+                    slope[i][j] = share
+                        * (f64::from(u8::from(i == j)) - by_size * f[i] / greater * f[j] / size);
+                }
+            }
+        }
+        f[at].iter_mut().for_each(|v| *v *= share);
+    }
 }
 
 /// Cuts a part of `f` to the length `s`; says whether it was longer.

@@ -255,6 +255,27 @@ fn what_falls_by_itself_is_proved_to_have_no_load_factor() {
     let first = parsed.lines().next().unwrap();
     assert!(first.contains("without its live load it falls"), "{parsed}");
     assert!(!parsed.contains("pre-stress"), "{parsed}");
+
+    // Pushed up the slope it is held by some loads, but none of them is reached from rest.
+    let mut up = slope.clone();
+    up.loads.live.clone_from(
+        &scene(&json!({
+            "format": "voussoir-scene/1", "blocks": [],
+            "loads": { "live": [{ "weight": [-1, 0, 0] }] }
+        }))
+        .loads
+        .live,
+    );
+    let held = ask::asked(&up, &Question::Limit(LimitOptions::default()));
+    let said = held.answer.load_factor().unwrap();
+    assert!(said.associative.found().unwrap().0 > 0.0, "{said:?}");
+    assert!(said.status == FactorStatus::NotAtRest && said.value.is_none(), "{said:?}");
+    let parsed = text::render(&held, asked, Default::default(), Default::default()).to_string();
+    let first = parsed.lines().next().unwrap();
+    assert!(first.contains("under the dead load alone it falls"), "{parsed}");
+    assert!(!parsed.contains("pre-stress"), "{parsed}");
+    let found = proof::verify(&held, &up).unwrap();
+    assert!(found.proved(), "{found:?}");
 }
 
 #[test]
@@ -474,6 +495,16 @@ fn scenes_that_were_left_open_have_an_answer() {
         let (model, bound) = asked(seed, index);
         let dry = coulomb::load_factor(&model, &bound, &Control::default());
         assert_eq!((dry.found, dry.value), (Found::RestsBelow, Some(0.0)), "{seed} {index}");
+    }
+    // States that neither friction limits nor descents of the imbalance lead to; and what falls, as
+    // its own proof says, though a bound was found.
+    for (seed, index) in [(88002, 312), (88001, 182)] {
+        let scene = cross::scene(seed, index).unwrap().0;
+        let held = ask::asked(&scene, &Question::Limit(LimitOptions::default()));
+        let said = held.answer.load_factor().unwrap();
+        assert_eq!(said.status, FactorStatus::NotAtRest, "{seed} {index}");
+        let found = proof::verify(&held, &scene).unwrap();
+        assert!(found.proved(), "{seed} {index}: {found:?}");
     }
     // Forces beside tensile strengths, a little outside of their cones as the engine leaves them.
     let (model, bound) = asked(88002, 340);

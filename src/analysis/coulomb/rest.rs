@@ -196,7 +196,12 @@ pub(in crate::analysis) fn up_to_rest(
     let mut probe = Probe { at, control, seen: Vec::new() };
     let rests = match dead {
         Some(Verdict::Stable) => Some(StateMotion::Rests),
-        Some(Verdict::Conditional | Verdict::Unstable) => Some(StateMotion::Moves),
+        // Its own proof says so.
+        Some(Verdict::Unstable) => {
+            (answer.found, answer.value) = (Found::NotAtRest, None);
+            return answer;
+        }
+        Some(Verdict::Conditional) => Some(StateMotion::Moves),
         Some(Verdict::Undecided) => Some(StateMotion::Undecided),
         None => probe.ask(0.0),
     };

@@ -67,9 +67,9 @@ const EASY: usize = 4;
 /// states are lost (2 of 993 with one ε, none with two). More: minutes for states that stay open.
 const HOPELESS: (f64, usize) = (0.1, 2);
 
-/// How often blocks are followed against a drag, which takes as long as some fixed points. Fewer:
-/// states that turn at the next ε stay open. More: time lost on what does not settle at all.
-const MOST_RELAXED: usize = 2;
+/// How often a curve of rounded laws is followed that leads nowhere: what is lost at one ε is at the
+/// next. Fewer: such states are not reached. More: as much time again.
+const MOST_LOST_CURVES: usize = 1;
 
 /// A fixed point is none of the law where it is further from it than so many times the one before
 /// (and than [`tolerance::MOTION_BREACH`]): joints that crush may lead there.
@@ -107,6 +107,29 @@ pub fn refined(model: &Model, control: &Control, epsilon: f64) -> State {
     answer
 }
 
+/// Curves of rounded laws, as long as they lead anywhere.
+#[derive(Default)]
+struct Curves {
+    lost: usize,
+}
+
+impl Curves {
+    fn follow(
+        &mut self,
+        law: &mut Exact,
+        contacts: &Contacts,
+        epsilon: f64,
+        control: &Control,
+    ) -> Option<(Solved, f64)> {
+        if self.lost == MOST_LOST_CURVES {
+            return None;
+        }
+        let solved = law.tracked(contacts, epsilon, control.deadline);
+        self.lost += usize::from(solved.is_none());
+        solved
+    }
+}
+
 /// The continuation in ε.
 fn continued(model: &Model, mut contacts: Contacts, control: &Control, least: f64) -> State {
     let interfaces = &model.interfaces;
@@ -121,7 +144,7 @@ fn continued(model: &Model, mut contacts: Contacts, control: &Control, least: f6
     let mut newton = Newton::new(&contacts);
     let mut history: Vec<Seen> = Vec::new();
     let mut trail: Vec<(f64, Vec<f64>)> = Vec::new();
-    let (mut hopeless, mut relaxed, mut astray) = (0, 0, 0);
+    let (mut hopeless, mut astray, mut curves) = (0, 0, Curves::default());
     let rest = vec![0.0; contacts.statics.matrix.rows];
     // The associative state is the first guess of the friction limits.
     let solvers =
@@ -149,7 +172,10 @@ fn continued(model: &Model, mut contacts: Contacts, control: &Control, least: f6
         let followed = exact_solver
             .as_mut()
             .filter(|_| from.solves == 0 || from.solves > EASY)
-            .and_then(|e| e.on(&contacts, &mut trail, epsilon, control.deadline))
+            .and_then(|e| {
+                e.on(&contacts, &mut trail, epsilon, control.deadline)
+                    .or_else(|| curves.follow(e, &contacts, epsilon, control))
+            })
             .map(|solved| by_the_law(&contacts, solved, 0));
         let is_followed = followed.is_some();
         let point = followed.or_else(|| {
@@ -174,9 +200,7 @@ fn continued(model: &Model, mut contacts: Contacts, control: &Control, least: f6
             && let Some(solver) = exactly.as_mut().and_then(Option::as_mut)
             && let Some(solved) =
                 solver.near(&contacts, epsilon, &point.rates, control.deadline).or_else(|| {
-                    let tries = is_lost && relaxed < MOST_RELAXED;
-                    relaxed += usize::from(tries);
-                    tries.then(|| solver.relaxed(&contacts, epsilon, control.deadline)).flatten()
+                    is_lost.then(|| curves.follow(solver, &contacts, epsilon, control)).flatten()
                 })
         {
             point = by_the_law(&contacts, solved, point.solves);

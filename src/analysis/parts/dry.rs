@@ -45,8 +45,9 @@ pub fn unproved(
     dead: Option<Verdict>,
     control: &Control,
 ) -> DryLoadFactor {
-    // Where all stands, every part does; any other verdict is that of one of them.
-    let dead = dead.filter(|&v| v == Verdict::Stable);
+    // Where all stands, every part does; where it falls, one of them does.
+    let is_one = interface::parts(model).len() == 1;
+    let dead = dead.filter(|&v| v == Verdict::Stable || (v == Verdict::Unstable && is_one));
     let solve = |part: &Part, bound: Option<&LoadFactor>, control: &Control| match bound {
         Some(bound) => coulomb::of_part(&part.model, bound, dead, control),
         None => {

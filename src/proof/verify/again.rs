@@ -16,7 +16,7 @@ use crate::{
     terms::{Found, Law, Outcome, StateMotion, resolution},
     tolerance,
     verdict::{
-        Evidence,
+        Evidence, Verdict,
         check::{self, Claim, Findings},
         evidence::read_rates,
     },
@@ -103,11 +103,15 @@ pub(in crate::proof) fn dry_friction(
     if f.fails.is_empty() && dry.found == Found::Undecided {
         f.holds.push("undecided: nothing is claimed".into());
     }
-    // What the evidence for the bound says of the dead load is not to be computed again.
-    let falls = dry.found == Found::NotAtRest
-        && bound.0.bound().and_then(|b| b.upper).is_some_and(|u| u < 0.0);
-    if falls {
+    // What the evidence for the bound, or that of the dead load beside it, says of the dead load is
+    // not to be computed again.
+    let is_negative = bound.0.bound().and_then(|b| b.upper).is_some_and(|u| u < 0.0);
+    let is_unheld = bound.0.verdict() == Some(Verdict::Unstable);
+    let falls = dry.found == Found::NotAtRest && (is_negative || is_unheld);
+    if falls && is_negative {
         f.holds.push("the bound is below zero: the dead load alone is not held".into());
+    } else if falls {
+        f.holds.push("the dead load alone is not held, as its own evidence says".into());
     }
     if f.fails.is_empty()
         && !refuted

@@ -43,6 +43,7 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
                     Dry::Same => format!("λ = {bound}"),
                     Dry::Other(v) => format!("λ = {v:.5} with dry friction, at most {bound}"),
                     Dry::Never if upper < 0.0 => format!("λ at most {bound}"),
+                    Dry::Never if falls_by_itself(file) => format!("no λ with dry friction: under the dead load alone it falls (with more of the live load up to {bound} at most)"),
                     Dry::Never => format!("no λ with dry friction: not at rest under the dead load (at most {bound} with a pre-stress)"),
                     Dry::UpTo(v) => format!("λ at most {bound}; with dry friction at rest up to {v:.5}, then undecided"),
                     Dry::Undecided => format!("λ at most {bound}; with dry friction undecided"),
@@ -149,7 +150,7 @@ fn without_live_load(file: &ResultFile) -> Option<String> {
         QuestionKind::Kinematic => "without an earthquake",
         _ => return None,
     };
-    let negative = falls_by_itself(file);
+    let negative = is_negative(file);
     let says_so = (matches!(dry_of(file), Dry::Never) && !negative)
         || status(&file.answer) == Outcome::Impossible;
     let said_elsewhere = file.question == QuestionKind::Tilt;
@@ -357,7 +358,7 @@ fn dead_load(page: &mut Page, file: &ResultFile) {
         QuestionKind::Moving => "Without the train",
         _ => "Without its live load",
     };
-    let negative = falls_by_itself(file);
+    let negative = is_negative(file);
     let text = match file.dead_load.as_ref().and_then(|d| d.answer.verdict()) {
         Some(Verdict::Stable) => format!("{place} it stands."),
         Some(Verdict::Conditional) => {
@@ -433,8 +434,13 @@ fn status(answer: &Answer) -> Outcome {
     answer.bound().map_or(Outcome::Undecided, |b| b.status)
 }
 
-/// Whether no forces hold the dead load alone: the bound is below zero.
+/// Whether no forces hold the dead load alone: the bound is below zero, or that is proved by itself.
 fn falls_by_itself(file: &ResultFile) -> bool {
+    let dead = file.dead_load.as_ref().and_then(|d| d.answer.verdict());
+    is_negative(file) || dead == Some(Verdict::Unstable)
+}
+
+fn is_negative(file: &ResultFile) -> bool {
     found(&file.answer).is_some_and(|(_, _, upper)| upper < 0.0)
 }
 

@@ -43,31 +43,17 @@ const MOST_ROWS: usize = 12_000;
 const LEAST_FALL: f64 = 0.9;
 /// Most pushes on the way to one ε. Fewer: such states go back. More: time lost.
 const PUSHES: usize = 40;
-
-/// The drag at the start, as an ε: that of rates as large as forces make the joints yield by. More:
-/// steps for nothing. Less: the first one fails.
-const DRAG: f64 = 1.0;
-/// The drag after a step, and after one that failed, over the one before. Falling faster: every
-/// other step fails (twice as many factorisations on a dome of 19 blocks). Slower: more steps.
-const FREER: f64 = 0.5;
-const HELD: f64 = 5.0;
-/// The greatest drag. More: steps that hardly move.
-const MOST_DRAG: f64 = 1e3;
-/// A step against a drag is done when this × the imbalance at its start is left. Larger: what moves
-/// loses its way. Smaller: factorisations for nothing.
-const DRAGGED: f64 = 1e-2;
-/// Most of Newton's steps to one of them. More: steps that fail take longer.
-const DRAGS: usize = 6;
-/// Most factorisations. Fewer: walls of 16 blocks (264) do not get there.
-const FACTORS: usize = 300;
-/// Most rows. More: minutes for structures in space that do not settle at all.
-const MOST_RELAXED_ROWS: usize = 1_500;
+/// Most factorisations of all of them. Fewer: curves are followed that cost more. More: time lost
+/// (700 of them, 17 s, on a wall of 1,600 blocks).
+const MOST_PUSHED: usize = 100;
 
 /// Coulomb's law for the states of one set of contacts.
 pub struct Exact {
-    response: Response,
-    lu: Lu,
-    carried: Vec<f64>,
+    pub(super) response: Response,
+    pub(super) lu: Lu,
+    pub(super) carried: Vec<f64>,
+    /// How many matrices it has factored.
+    factors: usize,
 }
 
 impl Exact {
@@ -79,7 +65,7 @@ impl Exact {
         let response = Response::new(contacts)?;
         let (starts, rows) = response.pattern();
         let lu = Lu::new(&Pattern { starts: starts.to_vec(), rows: rows.to_vec() })?;
-        Some(Self { response, lu, carried: contacts.carried() })
+        Some(Self { response, lu, carried: contacts.carried(), factors: 0 })
     }
 
     /// The state at ε near `rates`, and the imbalance it leaves, in the loads that pass the blocks;
@@ -125,73 +111,6 @@ impl Exact {
         None
     }
 
-    /// The same from afar: the way of blocks that start where they touch and move against a drag,
-    /// which falls as long as they can be followed (implicit Euler steps of `drag q′ = −g(q)`).
-    /// States to which no descent of the imbalance leads are reached where such a motion comes to
-    /// rest; `None` also where there are too many blocks for that.
-    pub fn relaxed(
-        &mut self,
-        contacts: &Contacts,
-        epsilon: f64,
-        end: Deadline,
-    ) -> Option<(Solved, f64)> {
-        let rows = contacts.statics.matrix.rows;
-        if rows > MOST_RELAXED_ROWS {
-            return None;
-        }
-        let mut q = vec![0.0; rows];
-        let mut drag = DRAG;
-        let mut left = FACTORS;
-        loop {
-            let (forces, imbalance) =
-                self.response.forces(contacts, epsilon, FrictionLimits::Law, &q);
-            let size = self.size(&imbalance);
-            let allowed = allowed(epsilon, &q);
-            if size <= allowed {
-                return Some((Solved { forces, rates: q }, size));
-            }
-            if !size.is_finite() || end.is_over() {
-                return None;
-            }
-            let enough = (0.1 * allowed).max(DRAGGED * size);
-            match self.dragged(contacts, (epsilon, drag), &q, enough, &mut left) {
-                Some(next) => (q, drag) = (next, FREER * drag),
-                None if left > 0 && drag < MOST_DRAG => drag *= HELD,
-                None => return None,
-            }
-        }
-    }
-
-    /// Where blocks that start at the rates `from` are after one implicit step against a drag, up to
-    /// an imbalance that is `enough`; `left` counts the factorisations that are left.
-    fn dragged(
-        &mut self,
-        contacts: &Contacts,
-        (epsilon, drag): (f64, f64),
-        from: &[f64],
-        enough: f64,
-        left: &mut usize,
-    ) -> Option<Vec<f64>> {
-        let mut q = from.to_vec();
-        let look = |this: &Self, q: &[f64]| {
-            let (_, mut g) = this.response.forces(contacts, epsilon, FrictionLimits::Law, q);
-            g.iter_mut().zip(q.iter().zip(from)).for_each(|(g, (q, from))| *g += drag * (q - from));
-            let size = this.size(&g);
-            (g, size)
-        };
-        let (mut imbalance, mut size) = look(self, &q);
-        for _ in 0..DRAGS {
-            if size <= enough {
-                return Some(q);
-            }
-            *left = left.checked_sub(1)?;
-            let step = self.step(contacts, epsilon + drag, &q, &imbalance)?;
-            let better = shortened(&q, &step, size, |next| look(self, next));
-            (q, imbalance, size, _) = better?;
-        }
-        None
-    }
-
     /// The step of Newton's method that leaves no imbalance, where blocks resist their rates.
     fn step(
         &mut self,
@@ -203,6 +122,7 @@ impl Exact {
         let [lower, upper] = [false, true].map(|mirrored| {
             self.response.derivative(contacts, resists, FrictionLimits::Law, rates, mirrored)
         });
+        self.factors += 1;
         let mut step: Vec<f64> = imbalance.iter().map(|g| -g).collect();
         self.lu.solve(&lower, &upper, &mut step).then_some(step)
     }
@@ -224,7 +144,11 @@ impl Exact {
         }
         let mut trail = trail.to_vec();
         let mut fall = epsilon / trail.last()?.0;
+        let before = self.factors;
         for _ in 0..PUSHES {
+            if self.factors - before > MOST_PUSHED {
+                return None;
+            }
             let last = trail.last()?.0;
             let next = if last * fall < epsilon / LEAST_FALL { epsilon } else { last * fall };
             match self.near(contacts, next, &predicted(&trail, next), end) {
@@ -242,7 +166,7 @@ impl Exact {
         None
     }
 
-    fn size(&self, imbalance: &[f64]) -> f64 {
+    pub(super) fn size(&self, imbalance: &[f64]) -> f64 {
         imbalance.iter().zip(&self.carried).map(|(g, c)| (g / c).powi(2)).sum::<f64>().sqrt()
     }
 }
@@ -266,7 +190,7 @@ fn shortened<T>(
 }
 
 /// The imbalance that is none.
-fn allowed(epsilon: f64, rates: &[f64]) -> f64 {
+pub(super) fn allowed(epsilon: f64, rates: &[f64]) -> f64 {
     EXACT * epsilon + ROUNDING * rates.iter().map(|q| q * q).sum::<f64>().sqrt()
 }
 

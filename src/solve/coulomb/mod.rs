@@ -3,7 +3,8 @@
 //!
 //! [`iterate`] holds friction, solves, and holds it anew; each program is solved by [`Newton`] in
 //! the rates where that can be, by an engine where not. [`Exact`] and [`Law`] hold nothing:
-//! Coulomb's law itself, for the state and for the load factor. What any of them finds is a
+//! Coulomb's law itself, for the state and for the load factor; where none of them gets there, laws
+//! with rounded corners are followed to it (`track`). What any of them finds is a
 //! candidate; [`crate::analysis::coulomb`] asks the questions and decides.
 
 mod anderson;
@@ -12,6 +13,7 @@ mod fixed_point;
 mod law;
 mod newton;
 mod point;
+mod track;
 
 pub use anderson::Anderson;
 pub use exact::Exact;

@@ -141,7 +141,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::{super::Exact, *};
     use crate::{
         interface::prepare,
         program::{StaticsOptions, coulomb::Objective},
@@ -195,7 +195,8 @@ mod tests {
                 FrictionLimits::Held(HeldQuantity::Limits, &held),
                 FrictionLimits::Held(HeldQuantity::SlidingRates, &held),
             );
-            for (friction, size) in [limits, sliding, FrictionLimits::Law]
+            let rounded = FrictionLimits::Rounded(0.2);
+            for (friction, size) in [limits, sliding, FrictionLimits::Law, rounded]
                 .into_iter()
                 .flat_map(|f| [(f, 0.5), (f, 3.0)])
             {
@@ -260,6 +261,31 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn a_curve_of_rounded_laws_ends_where_newton_does() {
+        let mut both = 0;
+        for (which, contacts) in scenes().iter().enumerate() {
+            let mut law = Exact::new(contacts).unwrap();
+            let still = vec![0.0; contacts.statics.matrix.rows];
+            for epsilon in [1e-2, 1e-4] {
+                let (afar, left) = law.tracked(contacts, epsilon, Deadline::NEVER).unwrap();
+                assert!(left < 1e-4 * epsilon, "scene {which} {epsilon}: {left}");
+                assert!(law.tracked(contacts, epsilon, Deadline::within(0.0)).is_none());
+                let Some((near, _)) = law.near(contacts, epsilon, &still, Deadline::NEVER) else {
+                    continue;
+                };
+                both += 1;
+                for (a, b) in afar.forces.iter().zip(&near.forces) {
+                    assert!(
+                        (a - b).abs() < 1e-6 * norm(&near.forces),
+                        "scene {which} {epsilon}: {a} and {b}"
+                    );
+                }
+            }
+        }
+        assert!(both > 4, "{both}");
     }
 
     #[test]
