@@ -69,7 +69,7 @@ const HOPELESS: (f64, usize) = (0.1, 2);
 
 /// How often a curve of rounded laws is followed that leads nowhere: what is lost at one ε is at the
 /// next. Fewer: such states are not reached. More: as much time again.
-const MOST_LOST_CURVES: usize = 1;
+const MOST_LOST_CURVES: usize = 2;
 
 /// A fixed point is none of the law where it is further from it than so many times the one before
 /// (and than [`tolerance::MOTION_BREACH`]): joints that crush may lead there.

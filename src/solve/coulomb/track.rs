@@ -44,9 +44,10 @@ const SHORTER: f64 = 0.7;
 const FAILED: f64 = 0.35;
 /// Few and many corrections, and the most.
 const CORRECTIONS: [usize; 3] = [3, 6, 8];
-/// Most factorisations of all tries. Fewer: the Armadillo Vault pushed by a quarter of its weight
-/// (560) does not get there. More: minutes where nothing is to be had.
-const FACTORS: usize = 1000;
+/// Most factorisations of all tries: so many and one a row (the more joints, the more often a curve
+/// turns back), and no more than the second number. Fewer: the Armadillo Vault pushed by a quarter of
+/// its weight (560) does not get there. More: minutes where nothing is to be had.
+const FACTORS: [usize; 2] = [150, 1000];
 /// Most steps of Newton's method to the start.
 const FIRST: usize = 30;
 /// The difference by which the change along `s` is measured.
@@ -106,7 +107,8 @@ impl Curve<'_> {
         let (mut place, along_s) = self.start()?;
         let mut way = unit(along_s, None);
         let mut step = STEPS[0];
-        while self.factors < FACTORS && place.s < BACK {
+        let most = (FACTORS[0] + place.rates.len()).min(FACTORS[1]);
+        while self.factors < most && place.s < BACK {
             let before = self.factors;
             match self.corrected(place.on(&way, step), &way) {
                 Some((next, along_s)) => {
