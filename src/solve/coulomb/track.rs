@@ -48,6 +48,10 @@ const CORRECTIONS: [usize; 3] = [3, 6, 8];
 /// turns back), and no more than the second number. Fewer: the Armadillo Vault pushed by a quarter of
 /// its weight (560) does not get there. More: minutes where nothing is to be had.
 const FACTORS: [usize; 2] = [150, 1000];
+/// The most with so many rows, where each takes hundredths of a second; a wall of 1,600 blocks takes
+/// 200 to 260 where it gets there. More: load factors of such walls take three times as long, for
+/// states that stay open.
+const FACTORS_OF_LARGE: (usize, usize) = (4_000, 400);
 /// Most steps of Newton's method to the start.
 const FIRST: usize = 30;
 /// The difference by which the change along `s` is measured.
@@ -107,7 +111,9 @@ impl Curve<'_> {
         let (mut place, along_s) = self.start()?;
         let mut way = unit(along_s, None);
         let mut step = STEPS[0];
-        let most = (FACTORS[0] + place.rates.len()).min(FACTORS[1]);
+        let rows = place.rates.len();
+        let (large, of_large) = FACTORS_OF_LARGE;
+        let most = (FACTORS[0] + rows).min(if rows > large { of_large } else { FACTORS[1] });
         while self.factors < most && place.s < BACK {
             let before = self.factors;
             match self.corrected(place.on(&way, step), &way) {
