@@ -49,8 +49,8 @@ const CORRECTIONS: [usize; 3] = [3, 6, 8];
 /// its weight (560) does not get there. More: minutes where nothing is to be had.
 const FACTORS: [usize; 2] = [150, 1000];
 /// The most with so many rows, where each takes hundredths of a second; a wall of 1,600 blocks takes
-/// 200 to 260 where it gets there. More: load factors of such walls take three times as long, for
-/// states that stay open.
+/// 200 to 260 where it gets there. More: load factors of such walls take longer still (15 minutes
+/// and more with 1,000), for states that stay open.
 const FACTORS_OF_LARGE: (usize, usize) = (4_000, 400);
 /// Most steps of Newton's method to the start.
 const FIRST: usize = 30;
