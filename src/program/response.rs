@@ -38,7 +38,7 @@ pub enum FrictionLimits<'a> {
     Law,
     /// The same with its corners rounded: gap × pressure is the square of this share of the load
     /// that presumably passes, instead of nothing, and friction turns from sticking to sliding over
-    /// forces of that size.
+    /// forces of that size. Points without friction have the mean load for theirs.
     Rounded(f64),
 }
 

@@ -177,9 +177,15 @@ impl RowAnswer {
     /// What a row shows of an answer.
     pub fn of_answer(answer: &Answer) -> Self {
         let degrees = |lambda: f64| lambda.atan().to_degrees();
-        let tilt = |t: &Tilt| Self {
+        let verdict = |dead: &Option<Proved<Assessment>>| dead.as_ref().map(|d| d.verdict);
+        let tilt = |t: &Tilt, level| Self {
             toward: Some(t.toward.into()),
-            ..Self::of_load_factor(&t.load_factor, t.dry.as_ref().map(|d| &d.load_factor), degrees)
+            ..Self::of_load_factor(
+                &t.load_factor,
+                t.dry.as_ref().map(|d| &d.load_factor),
+                level,
+                degrees,
+            )
         };
         let least = |all: &mut dyn Iterator<Item = Self>| {
             all.min_by(|a, b| a.governing().total_cmp(&b.governing()))
@@ -187,20 +193,27 @@ impl RowAnswer {
         };
         match answer {
             Answer::Assess(a) => Self::of_assessment(a),
-            Answer::Limit(l) => Self::of_load_factor(&l.bound, l.dry.as_ref(), |lambda| lambda),
+            Answer::Limit(l) => {
+                Self::of_load_factor(&l.bound, l.dry.as_ref(), verdict(&l.dead), |lambda| lambda)
+            }
             Answer::Moving(m) => {
                 least(&mut m.positions.iter().filter(|s| !s.is_at_least()).map(|s| Self {
                     x: Some(s.position.x),
-                    ..Self::of_load_factor(&s.bound, s.dry.as_ref(), |lambda| lambda)
+                    ..Self::of_load_factor(&s.bound, s.dry.as_ref(), verdict(&m.dead), |lambda| {
+                        lambda
+                    })
                 }))
             }
-            Answer::Tilt(t) => least(&mut t.directions.iter().map(tilt)),
+            Answer::Tilt(t) => {
+                let level = verdict(&t.level);
+                least(&mut t.directions.iter().map(|t| tilt(t, level)))
+            }
             Answer::Repose(p) => least(
                 &mut p
                     .directions
                     .iter()
                     .filter_map(|d| d.rounds.get(d.answer))
-                    .map(|r| tilt(&r.tilt)),
+                    .map(|r| tilt(&r.tilt, None)),
             ),
             Answer::Critical(c) => Self::of_flips(c),
             Answer::Thrust(t) => {
@@ -209,7 +222,7 @@ impl RowAnswer {
             Answer::Path(p) => Self::of_path(p),
             Answer::Kinematic(k) => least(&mut k.directions.iter().map(|d| Self {
                 toward: Some(d.quake.toward.into()),
-                ..Self::of_load_factor(&d.bound, d.dry.as_ref(), |lambda| lambda)
+                ..Self::of_load_factor(&d.bound, d.dry.as_ref(), verdict(&k.dead), |lambda| lambda)
             })),
             Answer::Stages(s) => Self::of_stages(s),
             Answer::State(s) => Self::of_state(s),
@@ -339,10 +352,11 @@ impl RowAnswer {
     }
 
     /// The bound and, where it was asked for, the load factor with dry friction; values are read
-    /// through `scale`.
+    /// through `scale`; `dead` is the verdict without the live load, where that was asked.
     fn of_load_factor(
         bound: &LoadFactor,
         dry: Option<&Proved<DryLoadFactor>>,
+        dead: Option<Verdict>,
         scale: fn(f64) -> f64,
     ) -> Self {
         let answer = Self {
@@ -369,7 +383,7 @@ impl RowAnswer {
                 dry: Some(found),
                 ..answer
             },
-            Found::NotAtRest if bound.bracket.upper < 0.0 => {
+            Found::NotAtRest if bound.bracket.upper < 0.0 || dead == Some(Verdict::Unstable) => {
                 Self { dry: Some(found), ..Self::of(RowStatus::Unstable) }
             }
             Found::NotAtRest => Self { dry: Some(found), ..Self::of(RowStatus::Conditional) },

@@ -13,7 +13,8 @@ use voussoir::{
     proof::{self, answer::FactorStatus},
     report::text,
     scene::{Scene, read_str},
-    study::cross,
+    study::cross::{self, Stranger},
+    sweep::{RowAnswer, RowStatus},
     verdict::{
         Evidence, Verdict,
         check::{self, Claim},
@@ -272,10 +273,19 @@ fn what_falls_by_itself_is_proved_to_have_no_load_factor() {
     assert!(said.status == FactorStatus::NotAtRest && said.value.is_none(), "{said:?}");
     let parsed = text::render(&held, asked, Default::default(), Default::default()).to_string();
     let first = parsed.lines().next().unwrap();
-    assert!(first.contains("under the dead load alone it falls"), "{parsed}");
+    assert!(first.contains("no λ with dry friction"), "{parsed}");
+    assert!(first.contains("without its live load it falls"), "{parsed}");
     assert!(!parsed.contains("pre-stress"), "{parsed}");
     let found = proof::verify(&held, &up).unwrap();
     assert!(found.proved(), "{found:?}");
+    // Nor does the row of a sweep say that a pre-stress would do.
+    let asked = voussoir::analysis::ask(
+        &Question::Limit(LimitOptions::default()),
+        &up,
+        &ask::model(&up),
+        &Control::default(),
+    );
+    assert_eq!(RowAnswer::of_answer(&asked.unwrap()).status, RowStatus::Unstable);
 }
 
 #[test]
@@ -505,6 +515,16 @@ fn scenes_that_were_left_open_have_an_answer() {
         assert_eq!(said.status, FactorStatus::NotAtRest, "{seed} {index}");
         let found = proof::verify(&held, &scene).unwrap();
         assert!(found.proved(), "{seed} {index}: {found:?}");
+    }
+    // A stranger hides not which of the two falls.
+    let dome = cross::scene(88001, 182).unwrap().0;
+    let assembly = ask::model(&dome).assembly;
+    let masses: Vec<f64> = assembly.free().map(|i| assembly.blocks[i].mass).collect();
+    for stranger in [Stranger::Resting, Stranger::Heavy] {
+        let two = cross::beside(&dome, &masses, stranger, false);
+        let held = ask::asked(&two, &Question::Limit(LimitOptions::default()));
+        let said = held.answer.load_factor().unwrap();
+        assert_eq!(said.status, FactorStatus::NotAtRest, "{stranger:?}");
     }
     // Forces beside tensile strengths, a little outside of their cones as the engine leaves them.
     let (model, bound) = asked(88002, 340);

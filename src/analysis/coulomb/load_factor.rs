@@ -58,7 +58,12 @@ pub(in crate::analysis) fn of_part(
     dead: Option<Verdict>,
     control: &Control,
 ) -> DryLoadFactor {
-    let answer = complementary(model, associative, control);
+    // What falls by itself has none to look for.
+    let answer = if dead == Some(Verdict::Unstable) && !is_forest(model) {
+        unanswered(associative)
+    } else {
+        complementary(model, associative, control)
+    };
     up_to_rest(
         answer,
         &model.assembly,
@@ -79,18 +84,7 @@ pub(in crate::analysis) fn complementary(
     let map = |forces: &Forces, rates: &[Rate]| {
         law::natural_map(model, forces, rates).unwrap_or(f64::INFINITY)
     };
-    let mut answer = DryLoadFactor {
-        found: Found::Undecided,
-        value: None,
-        rests_at: None,
-        moves_at: None,
-        part: None,
-        natural_map: f64::INFINITY,
-        natural_map_in_loads: f64::INFINITY,
-        solves: 0,
-        forces: associative.forces.clone(),
-        rates: associative.rates.clone(),
-    };
+    let mut answer = unanswered(associative);
     if associative.outcome == Outcome::Impossible || control.deadline.is_over() {
         return answer;
     }
@@ -124,6 +118,22 @@ pub(in crate::analysis) fn complementary(
         lowered(&scene, whole, control, &mut answer);
     }
     answer
+}
+
+/// No answer yet.
+fn unanswered(associative: &LoadFactor) -> DryLoadFactor {
+    DryLoadFactor {
+        found: Found::Undecided,
+        value: None,
+        rests_at: None,
+        moves_at: None,
+        part: None,
+        natural_map: f64::INFINITY,
+        natural_map_in_loads: f64::INFINITY,
+        solves: 0,
+        forces: associative.forces.clone(),
+        rates: associative.rates.clone(),
+    }
 }
 
 /// What a value is asked of.

@@ -45,17 +45,35 @@ pub fn unproved(
     dead: Option<Verdict>,
     control: &Control,
 ) -> DryLoadFactor {
-    // Where all stands, every part does; where it falls, one of them does.
-    let is_one = interface::parts(model).len() == 1;
-    let dead = dead.filter(|&v| v == Verdict::Stable || (v == Verdict::Unstable && is_one));
-    let solve = |part: &Part, bound: Option<&LoadFactor>, control: &Control| match bound {
-        Some(bound) => coulomb::of_part(&part.model, bound, dead, control),
-        None => {
-            let bound = limit_part(&part.model, control);
-            coulomb::of_part(&part.model, &bound, dead, control)
+    let solve = |part: &Part, bound: Option<&LoadFactor>, control: &Control| {
+        let dead = dead_of(part, dead, control);
+        match bound {
+            Some(bound) => coulomb::of_part(&part.model, bound, dead, control),
+            None => {
+                let bound = limit_part(&part.model, control);
+                coulomb::of_part(&part.model, &bound, dead, control)
+            }
         }
     };
     load_factor_by(model, associative, control, (solve, under))
+}
+
+/// What is known of a part under the dead load where `dead` is the verdict of the scene: where all
+/// stands, every part does; where it falls, one of them does, and each is asked whether it is the
+/// one; any other verdict is that of one of them.
+pub(in crate::analysis) fn dead_of(
+    part: &Part,
+    dead: Option<Verdict>,
+    control: &Control,
+) -> Option<Verdict> {
+    match dead? {
+        Verdict::Unstable => {
+            let control = Control { law: Law::Associative, ..*control };
+            let own = assess_part(&part.model, &control).verdict;
+            Some(own).filter(|&own| own == Verdict::Unstable)
+        }
+        verdict => Some(verdict).filter(|&v| v == Verdict::Stable),
+    }
 }
 
 /// The same with ways of one's own: what is asked of a part that the live load acts on (given its

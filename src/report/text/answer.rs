@@ -43,7 +43,8 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
                     Dry::Same => format!("λ = {bound}"),
                     Dry::Other(v) => format!("λ = {v:.5} with dry friction, at most {bound}"),
                     Dry::Never if upper < 0.0 => format!("λ at most {bound}"),
-                    Dry::Never if falls_by_itself(file) => format!("no λ with dry friction: under the dead load alone it falls (with more of the live load up to {bound} at most)"),
+                    // That it falls without is said beside it.
+                    Dry::Never if falls_by_itself(file) => format!("no λ with dry friction, at most {bound}"),
                     Dry::Never => format!("no λ with dry friction: not at rest under the dead load (at most {bound} with a pre-stress)"),
                     Dry::UpTo(v) => format!("λ at most {bound}; with dry friction at rest up to {v:.5}, then undecided"),
                     Dry::Undecided => format!("λ at most {bound}; with dry friction undecided"),
@@ -150,13 +151,15 @@ fn without_live_load(file: &ResultFile) -> Option<String> {
         QuestionKind::Kinematic => "without an earthquake",
         _ => return None,
     };
-    let negative = is_negative(file);
-    let says_so = (matches!(dry_of(file), Dry::Never) && !negative)
-        || status(&file.answer) == Outcome::Impossible;
-    let said_elsewhere = file.question == QuestionKind::Tilt;
-    if negative && !said_elsewhere && !says_so {
-        return Some(format!("{place} it falls"));
+    if falls_by_itself(file) {
+        // A tilt has said so already.
+        let says_so = match status(&file.answer) {
+            Outcome::Impossible => true,
+            outcome => file.question == QuestionKind::Tilt && outcome == Outcome::Found,
+        };
+        return (!says_so).then(|| format!("{place} it falls"));
     }
+    let says_so = matches!(dry_of(file), Dry::Never) || status(&file.answer) == Outcome::Impossible;
     match file.answer.verdict().filter(|_| !says_so)? {
         Verdict::Conditional => Some(format!("{place} it stands only with a pre-stress")),
         Verdict::Unstable => Some(format!("{place} it falls")),

@@ -50,10 +50,10 @@ const MOST_PUSHED: usize = 100;
 /// Coulomb's law for the states of one set of contacts.
 pub struct Exact {
     pub(super) response: Response,
-    pub(super) lu: Lu,
-    pub(super) carried: Vec<f64>,
+    lu: Lu,
+    carried: Vec<f64>,
     /// How many matrices it has factored.
-    factors: usize,
+    pub(super) factors: usize,
 }
 
 impl Exact {
@@ -119,12 +119,22 @@ impl Exact {
         rates: &[f64],
         imbalance: &[f64],
     ) -> Option<Vec<f64>> {
-        let [lower, upper] = [false, true].map(|mirrored| {
-            self.response.derivative(contacts, resists, FrictionLimits::Law, rates, mirrored)
-        });
+        let step = imbalance.iter().map(|g| -g).collect();
+        self.solve(contacts, (resists, FrictionLimits::Law), rates, step)
+    }
+
+    /// Solves with the derivative of the imbalance at these rates, for one or two right-hand sides.
+    pub(super) fn solve(
+        &mut self,
+        contacts: &Contacts,
+        (resists, law): (f64, FrictionLimits),
+        rates: &[f64],
+        mut sides: Vec<f64>,
+    ) -> Option<Vec<f64>> {
+        let [lower, upper] = [false, true]
+            .map(|mirrored| self.response.derivative(contacts, resists, law, rates, mirrored));
         self.factors += 1;
-        let mut step: Vec<f64> = imbalance.iter().map(|g| -g).collect();
-        self.lu.solve(&lower, &upper, &mut step).then_some(step)
+        self.lu.solve(&lower, &upper, &mut sides).then_some(sides)
     }
 
     /// The state at a smaller ε than that of the last of `trail` (ε and rates, the last improved),

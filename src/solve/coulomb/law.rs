@@ -10,7 +10,7 @@
 //! 1944). It settles where the iteration on the limits goes round in circles, and gains all digits
 //! at once; from afar it does not get there, and is tried only beside that iteration.
 
-use super::point::FixedPoint;
+use super::{newton::dot, point::FixedPoint};
 use crate::{
     deadline::Deadline,
     program::{
@@ -191,10 +191,6 @@ impl Law {
         let step: Vec<f64> = own.iter().zip(by_load).map(|(a, b)| a + more * b).collect();
         (more.is_finite() && step.iter().all(|v| v.is_finite())).then_some((step, more))
     }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 fn norm(a: &[f64]) -> f64 {

@@ -10,7 +10,11 @@
 //! That the curve ends at a solution is likely (Chow, Mallet-Paret & Yorke 1978, for equations with
 //! one solution at its start), not certain: it may come back, or be too long.
 
-use super::{Exact, exact::allowed, newton::Solved};
+use super::{
+    Exact,
+    exact::allowed,
+    newton::{Solved, dot},
+};
 use crate::{
     deadline::Deadline,
     program::{coulomb::Contacts, response::FrictionLimits},
@@ -81,8 +85,8 @@ struct Curve<'a> {
     epsilon: f64,
     drag: f64,
     end: Deadline,
-    /// How many matrices it has factored.
-    factors: usize,
+    /// The number of factorisations at which it is given up.
+    most: usize,
 }
 
 impl Exact {
@@ -94,13 +98,14 @@ impl Exact {
         epsilon: f64,
         end: Deadline,
     ) -> Option<(Solved, f64)> {
-        let mut factors = 0;
+        let rows = contacts.statics.matrix.rows;
+        let (large, of_large) = FACTORS_OF_LARGE;
+        let most = (FACTORS[0] + rows).min(if rows > large { of_large } else { FACTORS[1] });
+        let most = self.factors + most;
         DRAGS.iter().find_map(|&drag| {
             let law = &mut *self;
-            let mut curve = Curve { law, contacts, epsilon, drag, end, factors };
-            let sharp = curve.followed();
-            factors = curve.factors;
-            self.near(contacts, epsilon, &sharp?, end)
+            let sharp = Curve { law, contacts, epsilon, drag, end, most }.followed()?;
+            self.near(contacts, epsilon, &sharp, end)
         })
     }
 }
@@ -111,11 +116,8 @@ impl Curve<'_> {
         let (mut place, along_s) = self.start()?;
         let mut way = unit(along_s, None);
         let mut step = STEPS[0];
-        let rows = place.rates.len();
-        let (large, of_large) = FACTORS_OF_LARGE;
-        let most = (FACTORS[0] + rows).min(if rows > large { of_large } else { FACTORS[1] });
-        while self.factors < most && place.s < BACK {
-            let before = self.factors;
+        while self.law.factors < self.most && place.s < BACK {
+            let before = self.law.factors;
             match self.corrected(place.on(&way, step), &way) {
                 Some((next, along_s)) => {
                     way = unit(along_s, Some(&way));
@@ -123,7 +125,7 @@ impl Curve<'_> {
                     if place.s < SHARP {
                         return Some(place.rates);
                     }
-                    match self.factors - before {
+                    match self.law.factors - before {
                         few if few <= CORRECTIONS[0] => step *= LONGER,
                         many if many >= CORRECTIONS[1] => step *= SHORTER,
                         _ => {}
@@ -198,17 +200,10 @@ impl Curve<'_> {
 
     /// The step of Newton's method at the same `s`, and how the rates change with `s`.
     fn step(&mut self, at: &Place, imbalance: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
-        self.factors += 1;
-        let (resists, law) = self.law(at.s);
-        let [lower, upper] = [false, true].map(|mirrored| {
-            self.law.response.derivative(self.contacts, resists, law, &at.rates, mirrored)
-        });
         let further = self.imbalance(&Place { rates: at.rates.clone(), s: at.s + DIFFERENCE });
         let mut both: Vec<f64> = imbalance.iter().map(|g| -g).collect();
         both.extend(imbalance.iter().zip(&further).map(|(g, next)| (g - next) / DIFFERENCE));
-        if !self.law.lu.solve(&lower, &upper, &mut both) {
-            return None;
-        }
+        let mut both = self.law.solve(self.contacts, self.law(at.s), &at.rates, both)?;
         let along_s = both.split_off(imbalance.len());
         Some((both, along_s))
     }
@@ -220,10 +215,6 @@ fn unit(along_s: Vec<f64>, before: Option<&Place>) -> Place {
     let onwards = before.map_or(-1.0, |before| way.dot(before));
     let by = way.dot(&way).sqrt().recip().copysign(onwards);
     Place { rates: way.rates.iter().map(|r| by * r).collect(), s: by }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 fn along(from: &[f64], way: &[f64], by: f64) -> Vec<f64> {
