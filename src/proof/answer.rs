@@ -173,7 +173,7 @@ impl LoadFactorAnswer {
             Found::AtLeast => Self { lower: dry.rests_at, upper, ..none(FactorStatus::AtLeast) },
             // A value is one only up to which the state was seen at rest.
             Found::FixedPoint | Found::Rests | Found::RestsBelow if dry.is_reached() => {
-                let upper = dry.moves_at.filter(|_| dry.found == Found::Rests).or(upper);
+                let upper = dry.moves_at.filter(|_| dry.found != Found::FixedPoint).or(upper);
                 Self {
                     status: FactorStatus::Found,
                     value: dry.value,

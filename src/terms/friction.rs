@@ -17,8 +17,8 @@ pub enum Found {
     /// The state under dry friction rests up to the value, and no longer somewhat above it.
     /// Computed, not proved.
     Rests,
-    /// The state under dry friction rests up to the value; what it does from there to the bound,
-    /// little more ([`REST_WITHIN`](crate::tolerance::REST_WITHIN)), did not come out. Computed, not
+    /// The state under dry friction rests up to the value; what it does from there to where it
+    /// moves, or else to the bound, little more ([`REST_WITHIN`](crate::tolerance::REST_WITHIN)), did not come out. Computed, not
     /// proved.
     RestsBelow,
     /// The state under dry friction rests at a load factor that was asked for, because another

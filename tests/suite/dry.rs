@@ -10,7 +10,10 @@ use voussoir::{
         coulomb::{self, Found},
         limit, stability, tilt,
     },
-    proof::{self, answer::FactorStatus},
+    proof::{
+        self,
+        answer::{FactorStatus, LoadFactorAnswer},
+    },
     report::text,
     scene::{Scene, read_str},
     study::cross::{self, Stranger},
@@ -508,7 +511,7 @@ fn scenes_that_were_left_open_have_an_answer() {
     }
     // States that neither friction limits nor descents of the imbalance lead to; and what falls, as
     // its own proof says, though a bound was found.
-    for (seed, index) in [(88002, 312), (88001, 182)] {
+    for (seed, index) in [(88002, 312), (88001, 182), (88002, 217)] {
         let scene = cross::scene(seed, index).unwrap().0;
         let held = ask::asked(&scene, &Question::Limit(LimitOptions::default()));
         let said = held.answer.load_factor().unwrap();
@@ -525,6 +528,31 @@ fn scenes_that_were_left_open_have_an_answer() {
         let held = ask::asked(&two, &Question::Limit(LimitOptions::default()));
         let said = held.answer.load_factor().unwrap();
         assert_eq!(said.status, FactorStatus::NotAtRest, "{stranger:?}");
+    }
+    // Solutions of the law below which the state does not come out, but above which it moves.
+    for (seed, index, rests, moves) in [(88002, 122, 0.184, 0.187), (88002, 498, 1.249, 1.265)] {
+        let scene = cross::scene(seed, index).unwrap().0;
+        let mut held = ask::asked(&scene, &Question::Limit(LimitOptions::default()));
+        let said = *held.answer.load_factor().unwrap();
+        assert!(
+            said.value.is_some_and(|v| (rests..moves).contains(&v)),
+            "{seed} {index}: {said:?}"
+        );
+        let found = proof::verify(&held, &scene).unwrap();
+        assert!(found.proved(), "{seed} {index}: {found:?}");
+        // What lies between rest and motion may have been left open, if it is little.
+        for (rests, is_little) in [(rests, true), (0.8 * rests, false)] {
+            let claimed = held.dry.as_mut().unwrap();
+            claimed.found = Found::RestsBelow;
+            (claimed.value, claimed.rests_at, claimed.moves_at) =
+                (Some(rests), Some(rests), Some(moves));
+            let mut file = json!(held);
+            file["answer"]["load_factor"] =
+                json!(LoadFactorAnswer::new(said.associative, held.dry.as_ref()));
+            let left_open = serde_json::from_value(file).unwrap();
+            let found = proof::verify(&left_open, &scene).unwrap();
+            assert_eq!(found.proved(), is_little, "{seed} {index}: {found:?}");
+        }
     }
     // Forces beside tensile strengths, a little outside of their cones as the engine leaves them.
     let (model, bound) = asked(88002, 340);

@@ -16,7 +16,7 @@ use crate::{
     assembly::Assembly,
     interface::{Model, is_forest},
     parallel,
-    terms::{Found, MANY, StateMotion},
+    terms::{Found, MANY, StateMotion, is_reached},
     tolerance,
     verdict::{Forces, Verdict, check, law},
 };
@@ -38,6 +38,10 @@ const ON_THE_WAY_OF_MANY: [f64; 1] = [0.5];
 /// not seen.
 const BELOW: [f64; 4] = [tolerance::REST_BELOW, 1e-2, 0.05, 0.2];
 
+/// How far above a value the state is asked, in shares of it, where it was not seen at rest just
+/// below. Nearer: motions too slow to be told. Farther: less is known of the value.
+const ABOVE: [f64; 3] = [tolerance::REST_BELOW, 1e-2, 0.05];
+
 /// Without an end to the load factor: where the state is asked, in multiples of the one at which
 /// live and dead load weigh the same.
 const WITHOUT_END: [f64; 3] = [0.1, 1.0, 10.0];
@@ -49,8 +53,8 @@ const MOST: usize = 40;
 const MOST_OF_MANY: usize = 8;
 
 /// Most states that stay undecided where none was seen to move: without one there is no value, only
-/// how far it was seen at rest. More: minutes, for these states take longest. Fewer: it is seen at
-/// rest less far.
+/// how far it was seen at rest. While halving so many more, but for more than [`MANY`] free blocks.
+/// More: minutes, for these states take longest. Fewer: it is seen at rest less far.
 const MOST_OPEN: usize = 4;
 
 /// So many states on the way are asked at a time. More: those above one that moves are asked in
@@ -63,6 +67,8 @@ struct Probe<'a> {
     control: &'a Control,
     /// All that came out, with their load factors.
     seen: Vec<(f64, State)>,
+    /// Most of them that stay undecided.
+    most_open: usize,
 }
 
 impl Probe<'_> {
@@ -107,7 +113,7 @@ impl Probe<'_> {
     /// Whether nothing more is to be had.
     fn is_hopeless(&self) -> bool {
         self.seen_to(StateMotion::Moves).next().is_none()
-            && self.seen_to(StateMotion::Undecided).count() >= MOST_OPEN
+            && self.seen_to(StateMotion::Undecided).count() >= self.most_open
     }
 
     /// Asks at these shares of a load factor, some at a time on all threads, until one moves or
@@ -176,7 +182,7 @@ pub(in crate::analysis) fn up_to_rest(
     // rests.
     let least = tolerance::LOAD_FACTOR_FLOOR * check::natural_factor(assembly);
     let nothing_more = bound.is_some() && associative.bracket.upper <= least;
-    let negative = answer.value.is_some_and(|v| v < 0.0) || bound.is_some_and(|b| b <= 0.0);
+    let negative = bound.is_some_and(|b| b <= 0.0);
     if !matches!(associative.outcome, Outcome::Found | Outcome::Unbounded) {
         return answer;
     }
@@ -193,7 +199,11 @@ pub(in crate::analysis) fn up_to_rest(
     if (negative && !nothing_more) || control.deadline.is_over() {
         return answer;
     }
-    let mut probe = Probe { at, control, seen: Vec::new() };
+    // What moves under less than the dead load says nothing about more.
+    if answer.value.is_some_and(|v| v < 0.0) {
+        (answer.found, answer.value) = (Found::Undecided, None);
+    }
+    let mut probe = Probe { at, control, seen: Vec::new(), most_open: MOST_OPEN };
     let rests = match dead {
         Some(Verdict::Stable) => Some(StateMotion::Rests),
         // Its own proof says so.
@@ -255,6 +265,18 @@ fn climb(
                     break;
                 }
             }
+            let farthest = associative.value.unwrap_or(f64::INFINITY);
+            for share in ABOVE.into_iter().filter(|_| blocks <= MANY) {
+                let lambda = (1.0 + share) * goal;
+                if answer.value.is_none()
+                    || is_reached(probe.rests_at(), goal)
+                    || probe.moves().is_some()
+                    || lambda > farthest
+                {
+                    break;
+                }
+                probe.ask(lambda);
+            }
         }
         None => {
             let natural = check::natural_factor(assembly);
@@ -262,7 +284,11 @@ fn climb(
         }
     }
     // Where nothing else is known, the bracket from below is what there is to say.
-    let above = probe.moves().map(|m| m.0).or(goal.filter(|_| answer.value.is_none()));
+    let is_known = |probe: &Probe| answer.value.is_some_and(|v| is_reached(probe.rests_at(), v));
+    let above = probe.moves().map(|m| m.0).or(goal.filter(|_| !is_known(probe)));
+    if blocks <= MANY {
+        probe.most_open += MOST_OPEN;
+    }
     let mut narrow = above.is_none_or(|above| probe.halve(above, most));
     // On the way to what came out of halving it is asked once more, until no motion refutes it.
     while let Some(moves) =
@@ -281,13 +307,22 @@ fn climb(
         // What lies above is little, and the bound is proved: the safe end is a value.
         let is_near = associative.outcome == Outcome::Found
             && associative.value.is_some_and(|b| rests_at >= (1.0 - tolerance::REST_WITHIN) * b);
-        let is_open = answer.found == Found::Undecided;
+        let is_open = !is_known(probe);
         if let Some((rests_at, state)) = probe.rests().filter(|_| is_near && is_open) {
             rests_below(answer, (*rests_at, &state.forces));
         }
         return;
     };
     answer.moves_at = Some(*moves_at);
+    let moves_at = *moves_at;
+    // Where not all came out that lies between the two, or the time was over, and it is little, the
+    // safe end is a value.
+    let is_open =
+        !narrow || probe.seen_to(StateMotion::Undecided).any(|s| s.0 > rests_at && s.0 < moves_at);
+    let is_near = rests_at >= (1.0 - tolerance::REST_WITHIN) * moves_at;
+    if let Some((rests_at, state)) = probe.rests().filter(|_| is_open && is_near) {
+        return rests_below(answer, (*rests_at, &state.forces));
+    }
     if !narrow {
         (answer.found, answer.value) = (Found::Undecided, None);
         return;
@@ -297,7 +332,7 @@ fn climb(
     if let Some((_, state)) = probe.rests() {
         answer.forces.clone_from(&state.forces);
     }
-    answer.rates = law::motion(&(probe.at)(*moves_at), &moving.forces).rates;
+    answer.rates = law::motion(&(probe.at)(moves_at), &moving.forces).rates;
     (answer.natural_map, answer.natural_map_in_loads) = (f64::INFINITY, f64::INFINITY);
 }
 

@@ -350,13 +350,19 @@ fn decide(history: &[Seen], epsilon: f64, point: &FixedPoint, moved: &Released) 
     let grew = |i: usize| matches!(history, [.., earlier, _] if before.accelerations[i] > 2.0 * earlier.accelerations[i]);
     let is_measure = |i: usize| before.accelerations[i] > NOISE * before.noise && !grew(i);
     let rest = (NOISE * point.noise).clamp(tolerance::UNBALANCE, tolerance::AT_REST);
+    // What fell twice in a row is no chance of unsettled friction.
+    let fell = |i: usize| {
+        matches!(history, [.., earlier, _]
+            if earlier.change <= tolerance::COULOMB_SETTLED
+                && before.accelerations[i] < tolerance::ACCELERATION_FALLS * earlier.accelerations[i])
+    };
     // Every block for itself: what sinks on soft joints must not hide what moves beside it.
     // What the compliance explains falls with ε; what is left of it may hide no motion.
     let by = before.epsilon / epsilon;
     let falls = |(i, &a): (usize, &f64)| {
         let earlier = before.accelerations[i];
         a <= rest
-            || (is_measure(i)
+            || ((is_measure(i) || fell(i))
                 && a < tolerance::ACCELERATION_FALLS * earlier
                 && (by * a - earlier) / (by - 1.0) <= tolerance::LEAST_MOTION)
     };

@@ -92,8 +92,12 @@ pub(in crate::proof) fn dry_friction(
     let status = bound.0.bound().map(|b| b.status);
     if dry.found == Found::RestsBelow {
         let near = |b: f64| dry.value.is_some_and(|v| v >= (1.0 - tolerance::REST_WITHIN) * b);
-        let is_near = bound.0.bound().and_then(|b| b.value).is_some_and(near);
-        require(&mut f, is_near, "the value is little below the bound");
+        let above = dry.moves_at.or(bound.0.bound().and_then(|b| b.value));
+        require(
+            &mut f,
+            above.is_some_and(near),
+            "the value is little below where it moves, or the bound",
+        );
     }
     require(
         &mut f,

@@ -270,10 +270,13 @@ fn dry(page: &mut Page, file: &ResultFile) {
             let moves = dry.moves_at.map(|m| format!(", and no longer at {}", words(m))).unwrap_or_default();
             format!("With dry friction (joints slide without opening) the blocks come to rest up to {}{moves}: the forces that the bound needs are not such as the loads produce. Computed, not proved.", words(v))
         }
-        (Found::RestsBelow, Some(v)) => format!(
-            "With dry friction (joints slide without opening) the blocks come to rest up to {}; what they do between there and the bound did not come out. Computed, not proved.",
-            words(v)
-        ),
+        (Found::RestsBelow, Some(v)) => {
+            let (moves, above) = match dry.moves_at {
+                Some(m) => (format!(", and no longer at {}", words(m)), "in between"),
+                None => (String::new(), "between there and the bound"),
+            };
+            format!("With dry friction (joints slide without opening) the blocks come to rest up to {}{moves}; what they do {above} did not come out. Computed, not proved.", words(v))
+        }
         (Found::NotAtRest, _) if falls_by_itself(file) => {
             "With dry friction there is no load factor: already the dead load finds no forces that balance it.".to_string()
         }
