@@ -17,7 +17,7 @@ use crate::{
     error::{Finding, FindingCode, InputError},
     interface::{self, Model, Part, prepare},
     scene::Scene,
-    terms::{Bound, Outcome, agree},
+    terms::{Bound, Found, Outcome, agree},
     tolerance,
     verdict::tilted::tilted,
     verdict::{
@@ -177,6 +177,10 @@ pub(crate) fn verify_model(file: &ResultFile, scene: &Scene, model: &Model) -> V
             ),
         };
         all.part("dry friction", findings);
+        // A dead load that falls, as its own evidence says, is a claim where the bound makes none.
+        all.claimed |= dry.found == Found::NotAtRest
+            && file.dead_load.is_some()
+            && file.answer.verdict() == Some(Verdict::Unstable);
     }
     if file.simulation.is_some() || file.question == QuestionKind::Simulate {
         all.part("simulation", simulation(file));

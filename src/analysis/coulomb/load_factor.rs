@@ -59,7 +59,8 @@ pub(in crate::analysis) fn of_part(
     control: &Control,
 ) -> DryLoadFactor {
     // What falls by itself has none to look for.
-    let answer = if dead == Some(Verdict::Unstable) && !is_forest(model) {
+    let is_open = associative.outcome == Outcome::Undecided;
+    let answer = if dead == Some(Verdict::Unstable) && (is_open || !is_forest(model)) {
         unanswered(associative)
     } else {
         complementary(model, associative, control)

@@ -32,7 +32,12 @@ pub(super) fn beside(
     level: Option<Verdict>,
     control: &Control,
 ) -> Option<Proved<DryLoadFactor>> {
-    let leaves_something = matches!(bound.outcome, Outcome::Found | Outcome::Unbounded);
+    // What falls by itself has none, whatever the bound.
+    let leaves_something = match bound.outcome {
+        Outcome::Found | Outcome::Unbounded => true,
+        Outcome::Undecided => level == Some(Verdict::Unstable),
+        Outcome::Impossible => false,
+    };
     (control.law == Law::Coulomb && leaves_something)
         .then(|| load_factor_from(model, bound, level, control))
 }

@@ -184,6 +184,9 @@ pub(in crate::analysis) fn up_to_rest(
     let nothing_more = bound.is_some() && associative.bracket.upper <= least;
     let negative = bound.is_some_and(|b| b <= 0.0);
     if !matches!(associative.outcome, Outcome::Found | Outcome::Unbounded) {
+        if dead == Some(Verdict::Unstable) {
+            (answer.found, answer.value) = (Found::NotAtRest, None);
+        }
         return answer;
     }
     // Where contacts form no closed chain there is nothing that could be wedged.

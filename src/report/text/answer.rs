@@ -66,6 +66,7 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
                 },
             },
             (Outcome::Impossible, _) => ("falls, whatever the live load".to_string(), Role::Bad),
+            _ if matches!(dry_of(file), Dry::Never) => ("no λ with dry friction, the bound undecided".to_string(), Role::Bad),
             _ => ("undecided".to_string(), Role::Unsure),
         },
         QuestionKind::Tilt => {
@@ -109,6 +110,7 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
                     },
                 },
                 (Outcome::Impossible, _) => (format!("falls, however it is tilted{toward}"), Role::Bad),
+                _ if matches!(dry_of(file), Dry::Never) => ("falls even when level".to_string(), Role::Bad),
                 _ => (format!("undecided{toward}"), Role::Unsure),
             }
         }
