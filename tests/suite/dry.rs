@@ -511,7 +511,9 @@ fn scenes_that_were_left_open_have_an_answer() {
     }
     // States that neither friction limits nor descents of the imbalance lead to; and what falls, as
     // its own proof says, though a bound was found.
-    for (seed, index) in [(88002, 312), (88001, 182), (88002, 217), (99001, 357), (88002, 476)] {
+    for (seed, index) in
+        [(88002, 312), (88001, 182), (88002, 217), (88002, 476), (99001, 292), (99001, 357)]
+    {
         let scene = cross::scene(seed, index).unwrap().0;
         let held = ask::asked(&scene, &Question::Limit(LimitOptions::default()));
         let said = held.answer.load_factor().unwrap();

@@ -3,9 +3,11 @@
 //! Forces and a mechanism that obey Coulomb's law at λ show that the scene can move there. Whether
 //! it rests below is another matter: part of it may be wedged, and stand on nothing but a
 //! pre-stress that the loads do not produce, while the mechanism moves something else. So the state
-//! ([`state`]) is asked under the dead load, on the way, and just below the value; where it does
-//! not rest, the value is no load factor of the scene, and the greatest one up to which it rests is
-//! sought by halving. *Computed, not proved:* that a state comes to rest.
+//! ([`state`]) is asked under the dead load, on the way, and just below the value, and where it
+//! stays open there just above; where it does not rest, the value is no load factor of the scene,
+//! and the greatest one up to which it rests is sought by halving. Where not everything came out
+//! between that and motion, or the bound, and it is little, the end up to which it rests is the
+//! value. *Computed, not proved:* that a state comes to rest.
 
 use super::{
     answer::DryLoadFactor,
@@ -254,31 +256,9 @@ fn climb(
     match goal {
         Some(goal) => {
             probe.climb(on_the_way, goal);
-            let halfway = probe.rests_at();
-            // Without a value, what does not come out far below the bound does not next to it.
-            let hopeless =
-                answer.value.is_none() && halfway < ON_THE_WAY[ON_THE_WAY.len() - 1] * goal;
-            for share in BELOW.into_iter().filter(|_| !hopeless) {
-                let lambda = (1.0 - share) * goal;
-                if probe.moves().is_some()
-                    || lambda <= halfway
-                    || probe.is_hopeless()
-                    || probe.ask(lambda) != Some(StateMotion::Undecided)
-                {
-                    break;
-                }
-            }
-            let farthest = associative.value.unwrap_or(f64::INFINITY);
-            for share in ABOVE.into_iter().filter(|_| blocks <= MANY) {
-                let lambda = (1.0 + share) * goal;
-                if answer.value.is_none()
-                    || is_reached(probe.rests_at(), goal)
-                    || probe.moves().is_some()
-                    || lambda > farthest
-                {
-                    break;
-                }
-                probe.ask(lambda);
+            below(probe, goal, answer.value.is_some());
+            if answer.value.is_some() && blocks <= MANY {
+                above(probe, goal, associative.value.unwrap_or(f64::INFINITY));
             }
         }
         None => {
@@ -288,11 +268,11 @@ fn climb(
     }
     // Where nothing else is known, the bracket from below is what there is to say.
     let is_known = |probe: &Probe| answer.value.is_some_and(|v| is_reached(probe.rests_at(), v));
-    let above = probe.moves().map(|m| m.0).or(goal.filter(|_| !is_known(probe)));
+    let end = probe.moves().map(|m| m.0).or(goal.filter(|_| !is_known(probe)));
     if blocks <= MANY {
         probe.most_open += MOST_OPEN;
     }
-    let mut narrow = above.is_none_or(|above| probe.halve(above, most));
+    let mut narrow = end.is_none_or(|end| probe.halve(end, most));
     // On the way to what came out of halving it is asked once more, until no motion refutes it.
     while let Some(moves) =
         probe.moves().map(|m| m.0).filter(|_| narrow && on_the_way.len() == ON_THE_WAY_OF_FEW.len())
@@ -337,6 +317,36 @@ fn climb(
     }
     answer.rates = law::motion(&(probe.at)(moves_at), &moving.forces).rates;
     (answer.natural_map, answer.natural_map_in_loads) = (f64::INFINITY, f64::INFINITY);
+}
+
+/// Asks next to a load factor, nearer first; without a value, what does not come out far below the
+/// bound does not next to it.
+fn below(probe: &mut Probe, goal: f64, is_value: bool) {
+    let halfway = probe.rests_at();
+    if !is_value && halfway < ON_THE_WAY[ON_THE_WAY.len() - 1] * goal {
+        return;
+    }
+    for share in BELOW {
+        let lambda = (1.0 - share) * goal;
+        if probe.moves().is_some()
+            || lambda <= halfway
+            || probe.is_hopeless()
+            || probe.ask(lambda) != Some(StateMotion::Undecided)
+        {
+            break;
+        }
+    }
+}
+
+/// Asks above a value below which it was not seen at rest, up to the bound, until it moves.
+fn above(probe: &mut Probe, value: f64, bound: f64) {
+    for share in ABOVE {
+        let lambda = (1.0 + share) * value;
+        if is_reached(probe.rests_at(), value) || probe.moves().is_some() || lambda > bound {
+            break;
+        }
+        probe.ask(lambda);
+    }
 }
 
 /// The load factor up to which it was seen at rest is the value, with forces that hold it there.
