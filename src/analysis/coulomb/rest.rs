@@ -246,6 +246,7 @@ fn climb(
     assembly: &Assembly,
 ) {
     let blocks = assembly.free().count();
+    let bound = associative.value.filter(|_| associative.outcome == Outcome::Found);
     let (most, on_the_way) = match blocks {
         _ if blocks > MANY => (MOST_OF_MANY, &ON_THE_WAY_OF_MANY[..]),
         _ if blocks > FEW || answer.found == Found::NothingSlides => (MOST, &ON_THE_WAY[..]),
@@ -258,7 +259,7 @@ fn climb(
             probe.climb(on_the_way, goal);
             below(probe, goal, answer.value.is_some());
             if answer.value.is_some() && blocks <= MANY {
-                above(probe, goal, associative.value.unwrap_or(f64::INFINITY));
+                above(probe, goal, bound.unwrap_or(f64::INFINITY));
             }
         }
         None => {
@@ -284,28 +285,23 @@ fn climb(
             _ => break,
         }
     }
-    let rests_at = probe.rests_at();
-    answer.rests_at = Some(rests_at);
-    let Some((moves_at, moving)) = probe.moves() else {
-        // What lies above is little, and the bound is proved: the safe end is a value.
-        let is_near = associative.outcome == Outcome::Found
-            && associative.value.is_some_and(|b| rests_at >= (1.0 - tolerance::REST_WITHIN) * b);
-        let is_open = !is_known(probe);
-        if let Some((rests_at, state)) = probe.rests().filter(|_| is_near && is_open) {
-            rests_below(answer, (*rests_at, &state.forces));
+    let (rests_at, moves_at) = (probe.rests_at(), probe.moves().map(|m| m.0));
+    (answer.rests_at, answer.moves_at) = (Some(rests_at), moves_at);
+    // Where not everything came out up to where it moves, or else to the proved bound, and that is
+    // little, the safe end is a value.
+    let is_between = |lambda: f64, end: f64| lambda > rests_at && lambda < end;
+    let open_to = match moves_at {
+        Some(end) => {
+            let mut open = probe.seen_to(StateMotion::Undecided);
+            Some(end).filter(|_| !narrow || open.any(|s| is_between(s.0, end)))
         }
-        return;
+        None => bound.filter(|_| !is_known(probe)),
     };
-    answer.moves_at = Some(*moves_at);
-    let moves_at = *moves_at;
-    // Where not all came out that lies between the two, or the time was over, and it is little, the
-    // safe end is a value.
-    let is_open =
-        !narrow || probe.seen_to(StateMotion::Undecided).any(|s| s.0 > rests_at && s.0 < moves_at);
-    let is_near = rests_at >= (1.0 - tolerance::REST_WITHIN) * moves_at;
-    if let Some((rests_at, state)) = probe.rests().filter(|_| is_open && is_near) {
+    let is_near = open_to.is_some_and(|end| rests_at >= (1.0 - tolerance::REST_WITHIN) * end);
+    if let Some((rests_at, state)) = probe.rests().filter(|_| is_near) {
         return rests_below(answer, (*rests_at, &state.forces));
     }
+    let Some((moves_at, moving)) = probe.moves() else { return };
     if !narrow {
         (answer.found, answer.value) = (Found::Undecided, None);
         return;
@@ -315,7 +311,7 @@ fn climb(
     if let Some((_, state)) = probe.rests() {
         answer.forces.clone_from(&state.forces);
     }
-    answer.rates = law::motion(&(probe.at)(moves_at), &moving.forces).rates;
+    answer.rates = law::motion(&(probe.at)(*moves_at), &moving.forces).rates;
     (answer.natural_map, answer.natural_map_in_loads) = (f64::INFINITY, f64::INFINITY);
 }
 

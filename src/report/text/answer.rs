@@ -110,7 +110,6 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
                     },
                 },
                 (Outcome::Impossible, _) => (format!("falls, however it is tilted{toward}"), Role::Bad),
-                _ if matches!(dry_of(file), Dry::Never) => ("falls even when level".to_string(), Role::Bad),
                 _ => (format!("undecided{toward}"), Role::Unsure),
             }
         }
