@@ -123,7 +123,9 @@ fn clumps_that_cannot_be_are_refused_with_their_place() {
         bad(json!([]))
     );
     assert!(bad(json!([{ "at": [0, 0, 0], "radius": 0 }])).contains("spheres[0].radius"));
-    assert!(bad(json!(vec![json!({ "at": [0, 0, 0], "radius": 1 }); 201])).contains("at most 200"));
+    assert!(
+        bad(json!(vec![json!({ "at": [0, 0, 0], "radius": 1 }); 2001])).contains("at most 2000")
+    );
 }
 
 #[test]
