@@ -16,8 +16,8 @@ use super::MassProperties;
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Most spheres of one clump. More: seconds, for all pairs are looked at. Fewer: no rough lid for a
-/// shear box of 8,000 grains.
+/// Most spheres of one clump. More: time, for all pairs are looked at. Fewer: no rough lid for long
+/// shear boxes (304 of 50 × 8 d).
 pub(super) const MOST: usize = 2_000;
 
 /// Lines of columns each way. More: time, by the square. Fewer: digits, by the power 3/2.
