@@ -322,6 +322,16 @@ fn a_shear_box_tells_friction() {
     assert!(rough > smooth + 0.1 && rough < 0.8, "{smooth} {rough}");
 }
 
+/// The lid of a long shear box is one clump of hundreds of spheres.
+#[test]
+fn a_long_shear_box_has_a_lid() {
+    let size = Some([50.0, 8.0]);
+    let protocol = Protocol { kind: ProtocolKind::Shear, grains: 100, size, ..Protocol::default() };
+    let deposit = voussoir::generate::deposit(&protocol, 1).unwrap();
+    assert!(deposit.lid.is_some());
+    assembly::resolve(&deposit.scene).unwrap();
+}
+
 /// What a heap at rest is asked by statics: whether forces hold it. Where they do not, the run went
 /// on, and the grains that creep have names.
 #[test]
