@@ -8,7 +8,7 @@
 //! hold more than the weight at any tilt have none; that comes out undecided.
 
 use super::{
-    Bracket, Control, Law, LoadFactor, Outcome, Proved,
+    Bracket, Control, LoadFactor, Outcome, Proved,
     coulomb::{self, DryLoadFactor, Found},
     limit,
     parts::{self, limit::PartMethods},
@@ -125,9 +125,7 @@ impl Tilt {
         level: Option<Verdict>,
         control: &Control,
     ) -> Result<(), InputError> {
-        if control.law == Law::Coulomb
-            && matches!(self.load_factor.outcome, Outcome::Found | Outcome::Unbounded)
-        {
+        if coulomb::is_asked(&self.load_factor, level, control) {
             let load_factor = dry(model, self, level, control)?;
             let model = tilted(model, self.toward, load_factor.value)?;
             self.dry = Some(DryTilt { load_factor: Proved::new(&model, load_factor), model });

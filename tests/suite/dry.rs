@@ -10,6 +10,7 @@ use voussoir::{
         coulomb::{self, Found},
         limit, stability, tilt,
     },
+    deadline::Deadline,
     proof::{
         self,
         answer::{FactorStatus, LoadFactorAnswer},
@@ -259,6 +260,15 @@ fn what_falls_by_itself_is_proved_to_have_no_load_factor() {
     let first = parsed.lines().next().unwrap();
     assert!(first.contains("without its live load it falls"), "{parsed}");
     assert!(!parsed.contains("pre-stress"), "{parsed}");
+
+    // Nor has it a tilt, though the bound of that did not come out.
+    let model = ask::model(&slope);
+    let no_time = Control { deadline: Deadline::within(0.0), ..Control::default() };
+    let mut leaning = tilt(&model, nalgebra::Vector3::x(), &no_time).unwrap();
+    assert_eq!(leaning.load_factor.outcome, Outcome::Undecided);
+    leaning.add_dry(&model, Some(Verdict::Unstable), &Control::default()).unwrap();
+    let dry = leaning.dry.unwrap().load_factor;
+    assert!(dry.found == Found::NotAtRest && dry.value.is_none(), "{dry:?}");
 
     // Pushed up the slope it is held by some loads, but none of them is reached from rest.
     let mut up = slope.clone();

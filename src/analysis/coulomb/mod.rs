@@ -32,14 +32,18 @@ pub(super) fn beside(
     level: Option<Verdict>,
     control: &Control,
 ) -> Option<Proved<DryLoadFactor>> {
-    // What falls by itself has none, whatever the bound.
+    is_asked(bound, level, control).then(|| load_factor_from(model, bound, level, control))
+}
+
+/// Whether a load factor with dry friction is asked for, and its bound leaves something to ask.
+pub(super) fn is_asked(bound: &LoadFactor, level: Option<Verdict>, control: &Control) -> bool {
     let leaves_something = match bound.outcome {
         Outcome::Found | Outcome::Unbounded => true,
+        // What falls by itself has none, whatever the bound.
         Outcome::Undecided => level == Some(Verdict::Unstable),
         Outcome::Impossible => false,
     };
-    (control.law == Law::Coulomb && leaves_something)
-        .then(|| load_factor_from(model, bound, level, control))
+    control.law == Law::Coulomb && leaves_something
 }
 
 /// That the load factor is not less than `floor`, where the state rests there and that leaves
