@@ -1,14 +1,14 @@
 //! Grains that flow and come to rest.
 //!
 //! The same engine as [`simulate`](super::simulate()), run stage by stage: walls are taken away or
-//! lifted, grains are poured, gravity is turned; at the end they settle once more with finer steps.
+//! lifted, grains are poured, gravity is turned; at the end they settle once more with finer substeps.
 //! Grains that fall below the floor are discarded. Restitution is what is given and nothing else
 //! damps: contacts are overdamped springs of natural frequency 0.1 / substep, friction is Coulomb's.
 //! A drum is seen from itself: gravity turns about it, and what a turning frame adds is added
 //! (`turning`). A stage that settles ends when the mean kinetic energy of a grain (of a sphere
 //! without its spin: nothing ever stops a ball that spins between two smooth walls) stays below
-//! [`GRAIN_REST_ENERGY`] × m g d for [`GRAIN_REST_TIME`] √(d/g), never after a fixed time; where it
-//! does not, that is said.
+//! [`GRAIN_REST_ENERGY`] × m g d for [`GRAIN_REST_TIME`] √(d/g), or for [`PAUSE`] where another
+//! stage follows, never after a fixed time; where it does not, that is said.
 
 mod turning;
 
@@ -41,7 +41,7 @@ const PREDICTION_FACES: f64 = 0.02;
 /// with them grains that are about to roll off others: from the look on at which they seem to rest
 /// every contact is found anew in every step.
 const RECYCLED: f64 = 0.001;
-/// At the end steps are finer by this, and contacts stiffer by its square, so that grains that
+/// At the end substeps are finer by this, and contacts stiffer by its square, so that grains that
 /// touch overlap by a sixth of what they did: the statics takes them as they lie. Smaller: contacts
 /// are lost in the overlaps. Larger: time.
 const FINER: f64 = 2.4;
@@ -49,10 +49,14 @@ const FINER: f64 = 2.4;
 /// hold sets the grains in motion, and a heap that rested flows on for as long as it took to form.
 /// More: time (heaps of 20,000 gain little by five times as many).
 const STIFFENED: (usize, usize) = (25, 4);
-/// So many times steps are made finer while statics finds no forces that hold the grains at rest.
+/// So many times substeps are made finer while statics finds no forces that hold the grains at rest.
 /// More: time (each takes 2.4 times as long as the one before). Fewer: grains that creep too slowly
 /// for the engine to call it motion are left so.
 pub const ROUNDS: usize = 3;
+/// How long grains rest before the next stage, √(d/g); at the end it is [`GRAIN_REST_TIME`]. Longer:
+/// time for nothing. Shorter: a bed that is about to stop is not at rest yet; what flows on when
+/// contacts become stiffer takes longer there.
+const PAUSE: f64 = 2.0;
 /// Steps between two looks at the grains.
 const LOOK: usize = 10;
 /// A bed flows when a hundredth of the grains moved by d.
@@ -76,7 +80,7 @@ pub enum Disturbance {
     Spin(Unit<Vector3<f64>>, f64, f64),
     /// These supports, and the lid, move along x at this speed, m/s, so far, m.
     Shear(Vec<usize>, f64, f64),
-    /// Steps become finer by this factor, and contacts stiffer by its square, by and by.
+    /// Substeps become finer by this factor, and contacts stiffer by its square, by and by.
     Stiffen(f64),
 }
 
@@ -98,7 +102,7 @@ pub struct Course {
     /// Steps are shorter by this factor: where grains bear more than their weight, contacts have to
     /// be stiffer.
     pub finer: f64,
-    /// Whether grains settle once more with finer steps at the end.
+    /// Whether grains settle once more with finer substeps at the end.
     pub settled: bool,
     /// Threads of the engine; the course is the same on any number of them.
     pub threads: usize,
@@ -153,7 +157,7 @@ pub struct Rest {
     pub turned: Option<f64>,
     /// Gravity at the end, m/s², as the supports see it.
     pub gravity: Vector3<f64>,
-    /// How often it settled with finer steps.
+    /// How often it settled with finer substeps.
     pub rounds: usize,
     /// Time simulated, s.
     pub time: f64,
@@ -178,7 +182,7 @@ pub struct Flow {
 /// Where everything is, by block ([`Rest::poses`]).
 pub type Poses = Vec<Option<(Vector3<f64>, UnitQuaternion<f64>)>>;
 
-/// Runs a course. Grains at rest are shown to `holds` with finer and finer steps, until it says that
+/// Runs a course. Grains at rest are shown to `holds` with finer and finer substeps, until it says that
 /// they hold or [`ROUNDS`] of them have passed.
 ///
 /// # Errors
@@ -242,6 +246,7 @@ pub fn flow(
             recycled: RECYCLED * diameter / units.length,
             dt: natural / STEPS / course.finer,
             step,
+            fineness: 1.0,
             natural,
             rolling: Rolling::default(),
             frictions: &frictions,
@@ -259,7 +264,9 @@ pub fn flow(
         };
     let (mut rested, mut turned) = (true, None);
     for (stage, change) in stages.iter().enumerate() {
-        let (came, angle) = run.stage(stage, change, horizon * natural, watch);
+        let is_last = !course.settled && stage + 1 == stages.len();
+        let still = if is_last { GRAIN_REST_TIME } else { PAUSE };
+        let (came, angle) = run.stage(stage, change, [still, horizon], watch);
         rested &= came;
         turned = angle.or(turned);
         if !came {
@@ -270,7 +277,7 @@ pub fn flow(
     while rested && course.settled && rounds < ROUNDS {
         rounds += 1;
         let stiffen = Disturbance::Stiffen(FINER);
-        rested = run.stage(stages.len(), &stiffen, horizon * natural, watch).0;
+        rested = run.stage(stages.len(), &stiffen, [GRAIN_REST_TIME, horizon], watch).0;
         if rested && holds(&run.poses()) {
             break;
         }
@@ -313,6 +320,8 @@ struct Flowing<'a> {
     /// s.
     dt: f64,
     step: Step,
+    /// How much finer substeps are than at the start.
+    fineness: f64,
     /// √(d/g), s.
     natural: f64,
     rolling: Rolling,
@@ -332,13 +341,14 @@ impl Flowing<'_> {
         self.world.pose(i).0 * self.units.length + self.units.origin
     }
 
-    /// One stage; whether it came to its end, and by how much gravity had turned when the grains
-    /// began to flow.
+    /// One stage, until grains have been at rest for so long, or never came to rest in so long,
+    /// √(d/g); whether it came to its end, and by how much gravity had turned when the grains began
+    /// to flow.
     fn stage(
         &mut self,
         index: usize,
         change: &Disturbance,
-        horizon: f64,
+        [still, horizon]: [f64; 2],
         watch: &mut dyn FnMut(&Moment) -> ControlFlow<()>,
     ) -> (bool, Option<f64>) {
         let start: Vec<Vector3<f64>> = (0..self.there.len()).map(|i| self.center(i)).collect();
@@ -492,19 +502,29 @@ impl Flowing<'_> {
                 _ => {}
             }
             let turned = matches!(change, Disturbance::Turn(..)).then_some(angle);
-            if self.resting >= GRAIN_REST_TIME * self.natural && !changing {
+            if self.resting >= still * self.natural && !changing {
                 return (true, turned);
             }
-            if time - still_since > horizon {
+            if time - still_since > horizon * self.natural {
                 return (false, turned);
             }
         }
     }
 
-    /// Goes on with steps that are finer by this.
+    /// Goes on with substeps that are finer by this: at first more of them in about the same step,
+    /// for grains that settle hardly move from one to the next, and to find their contacts takes as
+    /// long as to solve for them; from the second round on, for grains that roll off others too
+    /// slowly to be told, in shorter steps.
     fn refine(&mut self, by: f64) {
-        self.dt /= by;
-        self.step.dt /= by;
+        let share = |fineness: f64| {
+            let substeps = (SUBSTEPS as f64 * fineness.min(FINER)).round();
+            (substeps, substeps / (SUBSTEPS as f64 * fineness))
+        };
+        let ((_, before), (substeps, now)) = (share(self.fineness), share(self.fineness * by));
+        self.fineness *= by;
+        self.dt *= now / before;
+        self.step.dt *= now / before;
+        self.step.iterations = substeps as usize;
         self.world.refine(self.step);
     }
 

@@ -164,19 +164,22 @@ impl Curve<'_> {
 
     /// The place on the curve straight across `way` from `at`, and how rates change with `s` there.
     fn corrected(&mut self, mut at: Place, way: &Place) -> Option<(Place, Vec<f64>)> {
+        let predicted = at.s;
         let mut last = None;
         let mut first = f64::INFINITY;
         for k in 0..=CORRECTIONS[2] {
             let imbalance = self.imbalance(&at);
             let size = self.law.size(&imbalance);
             let enough = (ON * at.s.exp()).max(allowed(self.epsilon, &at.rates));
-            if let Some(along_s) = last.take_if(|_| size <= enough) {
+            // What is allowed of huge rates, far off, is no place on the curve.
+            let strays = (at.s - predicted).abs() > STEPS[1];
+            if let Some(along_s) = last.take_if(|_| size <= enough && !strays) {
                 return Some((at, along_s));
             }
             if k == 0 {
                 first = size;
             }
-            let leads_away = k > CORRECTIONS[0] && size > first;
+            let leads_away = strays || (k > CORRECTIONS[0] && size > first);
             if !size.is_finite() || leads_away || k == CORRECTIONS[2] || self.end.is_over() {
                 return None;
             }
