@@ -7,8 +7,8 @@
 //! A drum is seen from itself: gravity turns about it, and what a turning frame adds is added
 //! (`turning`). A stage that settles ends when the mean kinetic energy of a grain (of a sphere
 //! without its spin: nothing ever stops a ball that spins between two smooth walls) stays below
-//! [`GRAIN_REST_ENERGY`] × m g d for [`GRAIN_REST_TIME`] √(d/g), or for [`PAUSE`] where another
-//! stage follows, never after a fixed time; where it does not, that is said.
+//! [`GRAIN_REST_ENERGY`] × m g d for [`GRAIN_REST_TIME`] √(d/g), or for a fifth of that where
+//! another stage follows, never after a fixed time; where it does not, that is said.
 
 mod turning;
 
