@@ -7,8 +7,8 @@
 //! A drum is seen from itself: gravity turns about it, and what a turning frame adds is added
 //! (`turning`). A stage that settles ends when the mean kinetic energy of a grain (of a sphere
 //! without its spin: nothing ever stops a ball that spins between two smooth walls) stays below
-//! [`GRAIN_REST_ENERGY`] × m g d for [`GRAIN_REST_TIME`] √(d/g), or for a fifth of that where
-//! another stage follows, never after a fixed time; where it does not, that is said.
+//! [`GRAIN_REST_ENERGY`] × m g d for [`GRAIN_REST_TIME`] √(d/g), or for a fifth of that on the
+//! way to a heap, never after a fixed time; where it does not, that is said.
 
 mod turning;
 
@@ -53,9 +53,10 @@ const STIFFENED: (usize, usize) = (25, 4);
 /// More: time (each takes 2.4 times as long as the one before). Fewer: grains that creep too slowly
 /// for the engine to call it motion are left so.
 pub const ROUNDS: usize = 3;
-/// How long grains rest before the next stage, √(d/g); at the end it is [`GRAIN_REST_TIME`]. Longer:
-/// time for nothing. Shorter: a bed that is about to stop is not at rest yet; what flows on when
-/// contacts become stiffer takes longer there.
+/// How long grains rest before the next stage, √(d/g), on the way to a heap, which at its end rests
+/// for [`GRAIN_REST_TIME`]; what is seen as it flows begins after that. Longer: time for nothing.
+/// Shorter: a bed that is about to stop is not at rest yet; what flows on when contacts become
+/// stiffer takes longer there.
 const PAUSE: f64 = 2.0;
 /// Steps between two looks at the grains.
 const LOOK: usize = 10;
@@ -264,8 +265,7 @@ pub fn flow(
         };
     let (mut rested, mut turned) = (true, None);
     for (stage, change) in stages.iter().enumerate() {
-        let is_last = !course.settled && stage + 1 == stages.len();
-        let still = if is_last { GRAIN_REST_TIME } else { PAUSE };
+        let still = if course.settled { PAUSE } else { GRAIN_REST_TIME };
         let (came, angle) = run.stage(stage, change, [still, horizon], watch);
         rested &= came;
         turned = angle.or(turned);
