@@ -1,8 +1,8 @@
 //! Grains that flow and come to rest.
 //!
 //! The same engine as [`simulate`](super::simulate()), run stage by stage: walls are taken away or
-//! lifted, grains are poured, gravity is turned; at the end they settle once more with finer substeps.
-//! Grains that fall below the floor are discarded. Restitution is what is given and nothing else
+//! lifted, grains are poured, gravity is turned; at the end they settle once more with finer
+//! substeps. Grains that fall below the floor are discarded. Restitution is what is given and nothing else
 //! damps: contacts are overdamped springs of natural frequency 0.1 / substep, friction is Coulomb's.
 //! A drum is seen from itself: gravity turns about it, and what a turning frame adds is added
 //! (`turning`). A stage that settles ends when the mean kinetic energy of a grain (of a sphere
@@ -49,8 +49,8 @@ const FINER: f64 = 2.4;
 /// hold sets the grains in motion, and a heap that rested flows on for as long as it took to form.
 /// More: time (heaps of 20,000 gain little by five times as many).
 const STIFFENED: (usize, usize) = (25, 4);
-/// So many times substeps are made finer while statics finds no forces that hold the grains at rest.
-/// More: time (each takes 2.4 times as long as the one before). Fewer: grains that creep too slowly
+/// So many times substeps are made finer while statics finds no forces that hold the grains at
+/// rest. More: time (each takes 2.4 times as long as the one before). Fewer: grains that creep too slowly
 /// for the engine to call it motion are left so.
 pub const ROUNDS: usize = 3;
 /// How long grains rest before the next stage, √(d/g), on the way to a heap, which at its end rests
@@ -183,8 +183,8 @@ pub struct Flow {
 /// Where everything is, by block ([`Rest::poses`]).
 pub type Poses = Vec<Option<(Vector3<f64>, UnitQuaternion<f64>)>>;
 
-/// Runs a course. Grains at rest are shown to `holds` with finer and finer substeps, until it says that
-/// they hold or [`ROUNDS`] of them have passed.
+/// Runs a course. Grains at rest are shown to `holds` with finer and finer substeps, until it says
+/// that they hold or [`ROUNDS`] of them have passed.
 ///
 /// # Errors
 /// A block that the engine cannot take.

@@ -19,7 +19,7 @@ const WALL: f64 = 4.0;
 const SIDES: usize = 16;
 /// Sides of the drum and of the orifice.
 const ROUND: usize = 32;
-/// Least distance of fixed grains on a lid, d. Smaller: more balls than a clump has (2,000).
+/// Least distance of fixed grains on a lid, d. Smaller: more balls than a clump has.
 const LID: f64 = 0.9;
 /// Share of the volume that poured grains fill, to know where the middle of their bed will be.
 const POURED: f64 = 0.6;
