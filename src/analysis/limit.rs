@@ -241,7 +241,8 @@ fn prove(
                 break;
             }
             let (other, held) = inside.get_or_insert_with(|| elsewhere(model, control));
-            if held.is_empty() || *other > start {
+            // Nor are those so far away that their share is more than the bracket may be wide.
+            if held.is_empty() || *other > start || share * (start - *other) > width {
                 break;
             }
             lambda = start - share * (start - *other);

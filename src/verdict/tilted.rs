@@ -15,6 +15,10 @@ use crate::{
 };
 use nalgebra::Vector3;
 
+/// A direction is of unit length and across gravity up to this. Smaller: less than rounding leaves
+/// of one. Larger: an angle is read with fewer digits than it was given.
+const UNIT: f64 = 16.0 * f64::EPSILON;
+
 /// The assembly with "own weight (and hanging dead loads) towards `toward`" as its only live load.
 ///
 /// # Errors
@@ -33,7 +37,7 @@ pub fn turned(
         )
         .hint("give a direction across gravity, such as 1,0,0"));
     }
-    let d = horizontal.normalize();
+    let d = direction(down, toward);
     let mut turned = assembly.clone();
     let mut moments: Vec<Vector3<f64>> = assembly.dead.iter().map(|w| w.moment).collect();
     for applied in &assembly.dead_forces {
@@ -62,6 +66,15 @@ pub fn turned(
         turned.live[applied.block].moment += applied.arm.cross(&applied.force);
     }
     Ok((turned, d))
+}
+
+/// The unit direction across `down` that `toward` points to; what comes out of this comes out of it
+/// unchanged, so that an answer and its check speak of the same loads to the last digit.
+fn direction(down: Vector3<f64>, toward: Vector3<f64>) -> Vector3<f64> {
+    let across = |d: Vector3<f64>| (d - down * down.dot(&d)).normalize();
+    let is_one = down.dot(&toward).abs() <= UNIT && (toward.norm_squared() - 1.0).abs() <= UNIT;
+    // The first leaves rounding of what `toward` has along gravity.
+    if is_one { toward } else { across(across(toward)) }
 }
 
 /// The model as it is at the tilt `tan θ = load_factor` (level where there is none): its live load
@@ -100,4 +113,30 @@ pub fn no_tilt(model: &Model) -> Option<String> {
     let [x, y] = across;
     let toward = if x.norm() > y.norm() { x } else { y };
     tilted(model, toward.normalize(), None).err().map(|e| e.message)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Along any gravity: across it, of unit length, and itself when it is given again.
+        #[test]
+        fn a_direction_is_its_own(
+            [a, b, c] in prop::array::uniform3(-1.0_f64..1.0),
+            [x, y, z] in prop::array::uniform3(-1e3_f64..1e3),
+            lean in 0.0_f64..1.0,
+        ) {
+            let down = Vector3::new(a, b, c);
+            prop_assume!(down.norm() > 0.1);
+            let down = down.normalize();
+            let toward = down * (x.hypot(y) + z) + lean * Vector3::new(x, y, z);
+            let across = (toward - down * down.dot(&toward)).norm() / toward.norm();
+            prop_assume!(across > tolerance::ALONG);
+            let d = direction(down, toward);
+            prop_assert!(down.dot(&d).abs() <= UNIT && (d.norm() - 1.0).abs() <= UNIT);
+            prop_assert_eq!(direction(down, d), d);
+        }
+    }
 }

@@ -270,7 +270,16 @@ fn what_falls_by_itself_is_proved_to_have_no_load_factor() {
     let dry = leaning.dry.unwrap().load_factor;
     assert!(dry.found == Found::NotAtRest && dry.value.is_none(), "{dry:?}");
 
-    // Pushed up the slope it is held by some loads, but none of them is reached from rest.
+    // Pushed up the slope it is held by some loads, but none of them is reached from rest; nor is
+    // one of a block alone, whose contacts close no chain.
+    let mut alone = slope.clone();
+    alone.blocks.retain(|block| block.id != "below");
+    for slope in [&slope, &alone] {
+        pushed_up_it_has_none_either(slope);
+    }
+}
+
+fn pushed_up_it_has_none_either(slope: &Scene) {
     let mut up = slope.clone();
     up.loads.live.clone_from(
         &scene(&json!({
@@ -280,6 +289,7 @@ fn what_falls_by_itself_is_proved_to_have_no_load_factor() {
         .loads
         .live,
     );
+    let asked = text::Asked { scene: "s", options: "" };
     let held = ask::asked(&up, &Question::Limit(LimitOptions::default()));
     let said = held.answer.load_factor().unwrap();
     assert!(said.associative.found().unwrap().0 > 0.0, "{said:?}");

@@ -13,6 +13,7 @@
 use super::{answer::DryLoadFactor, crushing::within_strength, rest::up_to_rest, state::state};
 use crate::{
     analysis::{Control, LoadFactor, Outcome, mend},
+    assembly::Wrench,
     interface::{Model, is_forest},
     program::{
         StaticsOptions,
@@ -58,9 +59,9 @@ pub(in crate::analysis) fn of_part(
     dead: Option<Verdict>,
     control: &Control,
 ) -> DryLoadFactor {
-    // What falls by itself has none to look for.
-    let is_open = associative.outcome == Outcome::Undecided;
-    let answer = if dead == Some(Verdict::Unstable) && (is_open || !is_forest(model)) {
+    // What falls by itself has none to look for, but one below zero where nothing could be wedged.
+    let is_below_zero = associative.found().is_some_and(|bound| bound <= 0.0);
+    let answer = if dead == Some(Verdict::Unstable) && !(is_below_zero && is_forest(model)) {
         unanswered(associative)
     } else {
         complementary(model, associative, control)
@@ -244,7 +245,10 @@ fn accept(
     let lambda = lower_end(scene, &forces, &rates, lambda);
     let s = certificate::statics(model, &forces, lambda);
     let obeys = natural_map <= tolerance::DRY_LAW && natural_map_in_loads <= tolerance::NATURAL_MAP;
-    let found = obeys && s.is_within_strength() && s.unbalance <= tolerance::DRY_BALANCE;
+    let found = obeys
+        && s.is_within_strength()
+        && s.unbalance <= tolerance::DRY_BALANCE
+        && hidden(model, &s.residuals, &rates) <= check::dry_width(&model.assembly, lambda);
     if found {
         (answer.found, answer.value) = (Found::FixedPoint, Some(lambda));
     }
@@ -263,18 +267,21 @@ fn lower_end(
     lambda: f64,
 ) -> f64 {
     let s = certificate::statics(model, forces, lambda);
-    let assembly = &model.assembly;
-    let hidden = |rates: &[Rate]| {
-        let driven: f64 =
-            assembly.free().map(|i| certificate::power(&assembly.live[i], &rates[i])).sum();
-        let hidden: f64 =
-            assembly.free().map(|i| certificate::power(&s.residuals[i], &rates[i]).abs()).sum();
-        if driven > 0.0 { hidden / driven } else { 0.0 }
-    };
-    match associative.value.filter(|_| associative.outcome == Outcome::Found) {
+    let hidden = |rates: &[Rate]| hidden(model, &s.residuals, rates);
+    match associative.found() {
         Some(bound) => (lambda - hidden(rates).max(hidden(&associative.rates))).min(bound),
         None => lambda - hidden(rates),
     }
+}
+
+/// What forces leave off balance, as a load factor: its power on a mechanism beside that of the
+/// live load.
+fn hidden(model: &Model, residuals: &[Wrench], rates: &[Rate]) -> f64 {
+    let assembly = &model.assembly;
+    let power = |wrenches: &[Wrench], i: usize| certificate::power(&wrenches[i], &rates[i]);
+    let driven: f64 = assembly.free().map(|i| power(&assembly.live, i)).sum();
+    let hidden: f64 = assembly.free().map(|i| power(residuals, i).abs()).sum();
+    if driven > 0.0 { hidden / driven } else { 0.0 }
 }
 
 /// Whether the live load alone, on joints without any strength, produces the forces that balance

@@ -191,9 +191,22 @@ pub(in crate::analysis) fn up_to_rest(
         }
         return answer;
     }
-    // Where contacts form no closed chain there is nothing that could be wedged.
+    let mut probe = Probe { at, control, seen: Vec::new(), most_open: MOST_OPEN };
+    // Where contacts form no closed chain there is nothing that could be wedged, and what the dead
+    // load leaves standing stands up to the value. A value of which the dead load falls already is
+    // not reached from it; one below zero says so itself.
     if answer.found != Found::Undecided && is_forest(&at(0.0)) {
-        answer.rests_at = answer.value;
+        let falls = match dead {
+            _ if negative => false,
+            Some(dead) => dead == Verdict::Unstable,
+            None => probe.ask(0.0) == Some(StateMotion::Moves),
+        };
+        if falls {
+            (answer.found, answer.value) = (Found::NotAtRest, None);
+            answer.moves_at = Some(0.0).filter(|_| dead.is_none());
+        } else {
+            answer.rests_at = answer.value;
+        }
         return answer;
     }
     // No forces at all hold the dead load: the bound proves it, and needs no time.
@@ -208,7 +221,6 @@ pub(in crate::analysis) fn up_to_rest(
     if answer.value.is_some_and(|v| v < 0.0) {
         (answer.found, answer.value) = (Found::Undecided, None);
     }
-    let mut probe = Probe { at, control, seen: Vec::new(), most_open: MOST_OPEN };
     let rests = match dead {
         Some(Verdict::Stable) => Some(StateMotion::Rests),
         // Its own proof says so.

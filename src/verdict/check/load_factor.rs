@@ -6,6 +6,7 @@ use super::{
     motion::moving,
 };
 use crate::{
+    assembly::Assembly,
     interface::Model,
     tolerance,
     verdict::{
@@ -56,15 +57,22 @@ pub(super) fn dry(f: &mut Findings, model: &Model, forces: &Forces, rates: &[Rat
         assembly.free().map(|i| certificate::power(&s.residuals[i], &rates[i]).abs()).sum::<f64>()
             / k.live_power;
     // What stands beside it makes no room.
-    let natural = moving(model, forces, rates).map_or_else(
-        || natural_factor(assembly),
-        |(part, ..)| part.units.load_factor(natural_factor(&part.model.assembly)),
+    let width = moving(model, forces, rates).map_or_else(
+        || dry_width(assembly, value),
+        |(part, ..)| {
+            let own = part.units.own_load_factor(value);
+            part.units.load_factor(dry_width(&part.model.assembly, own))
+        },
     );
-    let width = tolerance::DRY_WIDTH * value.abs() + tolerance::LOAD_FACTOR_FLOOR * natural;
     f.require(
         hidden <= width,
         format!("what the forces leave hides at most {hidden:.1e} of λ, allowed {width:.1e}"),
     );
+}
+
+/// How much of a load factor with dry friction what its forces leave off balance may hide.
+pub fn dry_width(assembly: &Assembly, value: f64) -> f64 {
+    tolerance::DRY_WIDTH * value.abs() + tolerance::LOAD_FACTOR_FLOOR * natural_factor(assembly)
 }
 
 /// The natural map of a mechanism with the rates as the live load drives them.

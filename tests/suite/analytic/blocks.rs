@@ -50,6 +50,19 @@ fn a_block_on_a_tilting_table_falls_at_the_arc_tangent_of_its_load_factor() {
     }
 }
 
+/// By as much as a slope is steeper or flatter than friction allows, a few thousandths of a degree:
+/// there a load factor is next to zero, and so is what its bracket may be wide.
+#[test]
+fn a_block_next_to_its_angle_of_friction_falls_at_the_difference() {
+    for (name, slope) in [("slides", 26.57), ("stands", 26.56)] {
+        let root = env!("CARGO_MANIFEST_DIR");
+        let path = format!("{root}/structures/block-on-incline-{name}.json");
+        let block = open(path.as_ref());
+        let want = 0.5_f64.atan().to_degrees() - slope;
+        close(name, tilt_deg(&block, [1.0, 0.0, 0.0]), want, 1e-5);
+    }
+}
+
 #[test]
 fn turning_gravity_flips_the_verdict_at_the_tilt() {
     // The same as a verdict: gravity itself turned by θ (1 ∓ 1e-6).

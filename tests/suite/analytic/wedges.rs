@@ -173,3 +173,15 @@ fn the_factor_of_safety_of_a_rock_wedge() {
     assert_eq!(verdict(&rock_wedge(dry * (1.0 - 1e-3)), Law::Coulomb), Verdict::Stable);
     assert_eq!(verdict(&rock_wedge(dry * (1.0 + 1e-3)), Law::Coulomb), Verdict::Conditional);
 }
+
+/// A direction of tilting that is read, kept and read again stays the same to the last digit: a
+/// bracket that is proved to be as wide as rounding has no room for another one.
+#[test]
+fn the_rock_wedge_falls_in_every_direction_as_its_proof_says() {
+    let wedge = open(concat!(env!("CARGO_MANIFEST_DIR"), "/structures/rock-wedge.json").as_ref());
+    for k in 0..12 {
+        let across = -0.55 + 0.1 * f64::from(k);
+        let [one, ten] = [1.0, 10.0].map(|by| tilt_deg(&wedge, [by, by * across, 0.0]));
+        close(&format!("towards 1,{across}"), ten, one, 1e-7);
+    }
+}
