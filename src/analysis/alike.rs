@@ -12,7 +12,10 @@ use crate::{
     interface::{Model, parts},
     program::{Isometries, Isometry},
     tolerance,
-    verdict::{Verdict, tilted::tilted},
+    verdict::{
+        Verdict,
+        tilted::{direction, tilted},
+    },
 };
 use nalgebra::Vector3;
 
@@ -72,8 +75,7 @@ impl<'a> Tilts<'a> {
 
     /// The unit vector across gravity towards `toward`.
     fn across(&self, toward: Vector3<f64>) -> Vector3<f64> {
-        let down = self.model.assembly.gravity.normalize();
-        (toward - down * down.dot(&toward)).normalize()
+        direction(self.model.assembly.gravity.normalize(), toward)
     }
 
     /// The first of the answers whose direction is carried into this one; none where time is over, for

@@ -388,15 +388,18 @@ pub fn verdict(verdict: Option<Verdict>) -> Exit {
 pub fn requirement(file: &ResultFile, require: Option<f64>, scale: fn(f64) -> f64) -> Exit {
     let Some(said) = file.answer.load_factor() else { return Exit::Undecided };
     // A scene that needs a pre-stress already without its live load, or falls, is no yes.
-    let negative = said.associative.upper.is_some_and(|u| u < 0.0);
-    let dead =
-        matches!(file.answer.verdict(), Some(Verdict::Conditional | Verdict::Unstable)) || negative;
+    let negative = said.associative.found().is_some_and(|(.., upper)| upper < 0.0);
+    let level = file.answer.verdict();
+    let dead = matches!(level, Some(Verdict::Conditional | Verdict::Unstable)) || negative;
+    let is_open = level == Some(Verdict::Undecided);
     let (lower, upper) = (said.lower.map(scale), said.upper.map(scale));
     let value = said.value.map(scale);
     match (said.status, require) {
         (FactorStatus::Impossible | FactorStatus::NotAtRest, _) => Exit::No,
         _ if dead => Exit::No,
         (_, Some(r)) if said.associative.upper.map(scale).is_some_and(|u| u < r) => Exit::No,
+        // Nor is one of which that is not known.
+        _ if is_open => Exit::Undecided,
         (FactorStatus::Found | FactorStatus::Unbounded, None)
         | (FactorStatus::Unbounded, Some(_)) => Exit::Yes,
         // Seen at rest there, whatever is known beyond.

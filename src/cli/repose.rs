@@ -15,7 +15,7 @@ use voussoir::{
     analysis::{Answer, AssessOptions, Question, ReposeOptions, ask, doubt, fabric},
     error::InputError,
     interface::{Model, prepare},
-    proof::packing::PackingFile,
+    proof::packing::{PackingDirection, PackingFile},
     report::{
         contacts,
         grains::{self, GrainFormat},
@@ -120,8 +120,12 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
         let options = TextOptions { verbose: args.common.verbose, brief: args.common.quiet };
         terminal.page(&text::packing(&file, options, layout))?;
     }
-    let open = !file.directions.iter().all(|d| d.governing().is_finite());
-    Ok(if open { Exit::Undecided } else { Exit::Yes })
+    let known = file.directions.iter().all(|d| d.governing().is_finite());
+    Ok(match file.directions.iter().any(PackingDirection::falls) {
+        true => Exit::No,
+        false if known => Exit::Yes,
+        false => Exit::Undecided,
+    })
 }
 
 /// Forces of the packing when level: those that the weights produce where dry friction was

@@ -7,6 +7,7 @@ use crate::{
     interface::Model,
     scene::{At, Load, Scene},
     tolerance,
+    verdict::tilted::direction,
 };
 use nalgebra::Vector3;
 use schemars::JsonSchema;
@@ -64,7 +65,7 @@ pub fn quake(scene: &Scene, model: &Model, toward: Vector3<f64>) -> Result<Quake
         )
         .hint("give a direction across gravity, such as 1,0"));
     }
-    let toward = across.normalize();
+    let toward = direction(down, toward);
     let masses = masses(scene, model, &down);
     let mut model = model.clone();
     let assembly = &mut model.assembly;

@@ -105,6 +105,16 @@ pub struct Removed {
 }
 
 impl PackingDirection {
+    /// Whether it falls before it is tilted, or however it is.
+    pub fn falls(&self) -> bool {
+        match self.status {
+            Outcome::Impossible => true,
+            Outcome::Found | Outcome::Unbounded | Outcome::Undecided => {
+                self.dry == Some(Found::NotAtRest) || self.tilt_deg.is_some_and(|tilt| tilt < 0.0)
+            }
+        }
+    }
+
     /// The tilt that counts: with dry friction where known, else the bound. One without an answer
     /// governs: it must not hide.
     pub fn governing(&self) -> f64 {

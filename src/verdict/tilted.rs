@@ -70,11 +70,15 @@ pub fn turned(
 
 /// The unit direction across `down` that `toward` points to; what comes out of this comes out of it
 /// unchanged, so that an answer and its check speak of the same loads to the last digit.
-fn direction(down: Vector3<f64>, toward: Vector3<f64>) -> Vector3<f64> {
-    let across = |d: Vector3<f64>| (d - down * down.dot(&d)).normalize();
-    let is_one = down.dot(&toward).abs() <= UNIT && (toward.norm_squared() - 1.0).abs() <= UNIT;
+pub(crate) fn direction(down: Vector3<f64>, toward: Vector3<f64>) -> Vector3<f64> {
+    let across = |d: Vector3<f64>| unit(d - down * down.dot(&d));
     // The first leaves rounding of what `toward` has along gravity.
-    if is_one { toward } else { across(across(toward)) }
+    if down.dot(&unit(toward)).abs() <= UNIT { unit(toward) } else { across(across(toward)) }
+}
+
+/// The unit vector along another one; what is of unit length already stays as it is.
+pub(crate) fn unit(v: Vector3<f64>) -> Vector3<f64> {
+    if (v.norm_squared() - 1.0).abs() <= UNIT { v } else { v.normalize() }
 }
 
 /// The model as it is at the tilt `tan θ = load_factor` (level where there is none): its live load

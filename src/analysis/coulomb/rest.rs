@@ -193,9 +193,12 @@ pub(in crate::analysis) fn up_to_rest(
     }
     let mut probe = Probe { at, control, seen: Vec::new(), most_open: MOST_OPEN };
     // Where contacts form no closed chain there is nothing that could be wedged, and what the dead
-    // load leaves standing stands up to the value. A value of which the dead load falls already is
-    // not reached from it; one below zero says so itself.
-    if answer.found != Found::Undecided && is_forest(&at(0.0)) {
+    // load leaves standing stands up to the value; up to the bound, where no other one came out. A
+    // value of which the dead load falls already is not reached from it; one below zero says so
+    // itself.
+    let is_open = answer.found == Found::Undecided;
+    let has_value = !is_open || bound.is_some_and(|_| associative.bracket.lower >= 0.0);
+    if has_value && is_forest(&at(0.0)) {
         let falls = match dead {
             _ if negative => false,
             Some(dead) => dead == Verdict::Unstable,
@@ -204,6 +207,10 @@ pub(in crate::analysis) fn up_to_rest(
         if falls {
             (answer.found, answer.value) = (Found::NotAtRest, None);
             answer.moves_at = Some(0.0).filter(|_| dead.is_none());
+        } else if is_open {
+            let lower = associative.bracket.lower;
+            answer.rests_at = Some(lower);
+            rests_below(&mut answer, (lower, &associative.forces));
         } else {
             answer.rests_at = answer.value;
         }

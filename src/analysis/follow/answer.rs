@@ -25,6 +25,7 @@ use crate::{
         Evidence, Forces, Rate, Verdict, certificate,
         check::{self, Claim, Findings},
         exact::{existence, motion},
+        tilted::unit,
     },
 };
 use nalgebra::Vector3;
@@ -150,7 +151,7 @@ pub fn push(
         return Err(error(format!("the control point is no point of {id}"))
             .hint(format!("its centre of mass is at {}", crate::number::point(c))));
     }
-    let toward = Vector3::from(options.toward).normalize();
+    let toward = unit(options.toward.into());
     let drive = Drive::Push { block, point, toward };
     let begun = begin(model, &drive, &options.from)?;
     let from = later(model, &drive, goes_on.as_ref(), begun.clone())?;

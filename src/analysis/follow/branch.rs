@@ -16,7 +16,8 @@ use crate::{
     interface::{Interface, Model},
     path::{Carried, Demand, Drive},
     terms::Law,
-    verdict::{Rate, Verdict},
+    tolerance,
+    verdict::{Rate, Verdict, check::natural_factor},
 };
 use nalgebra::Vector3;
 
@@ -191,7 +192,14 @@ impl Tracker<'_> {
             path.points.push(self.point(value, (&linkage, &at), &closed, &margin));
         }
         if how.drive.is_push() && at.load_factor <= 0.0 {
-            return Err(End::Vanishes);
+            let natural = natural_factor(self.start());
+            return Err(match at.load_factor.abs() <= tolerance::VANISHES * natural {
+                true => End::Vanishes,
+                false => End::Stuck(format!(
+                    "where contacts open or close the load factor falls to {:.3} at once",
+                    at.load_factor
+                )),
+            });
         }
         let mut here = (value, Trial { at, margin: Some(margin) });
         let next = self.along(how, &linkage, &mut here, &closed, path);

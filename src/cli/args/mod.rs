@@ -107,7 +107,7 @@ pub enum Verb {
     /// packing as it lies still has an admissible system of contact forces. It is reached when the
     /// first grain loses balance; with --moving-mass the grains that fell are taken away, and the
     /// tilt is asked for again, until a mechanism moves as much. Exit code 0 if it is found in
-    /// every direction, 3 if any stays open.
+    /// every direction, 1 if the packing falls before it is tilted, 3 if any stays open.
     Repose(Repose),
     /// At what value of a number in the scene does the verdict flip?
     ///

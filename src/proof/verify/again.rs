@@ -91,7 +91,11 @@ pub(in crate::proof) fn dry_friction(
     };
     let status = bound.0.bound().map(|b| b.status);
     if dry.found == Found::RestsBelow {
-        let near = |b: f64| dry.value.is_some_and(|v| v >= (1.0 - tolerance::REST_WITHIN) * b);
+        let zero = at(0.0).map_or(0.0, |model| {
+            tolerance::LOAD_FACTOR_FLOOR * check::natural_factor(&model.assembly)
+        });
+        let near =
+            |b: f64| dry.value.is_some_and(|v| v >= (1.0 - tolerance::REST_WITHIN) * b - zero);
         let above = dry.moves_at.or(bound.0.bound().and_then(|b| b.value));
         require(
             &mut f,
