@@ -3,6 +3,7 @@
 
 mod answers;
 mod checked;
+mod edges;
 mod files;
 mod in_time;
 mod next;
