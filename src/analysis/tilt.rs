@@ -8,9 +8,9 @@
 //! hold more than the weight at any tilt have none; that comes out undecided.
 
 use super::{
-    Bracket, Control, LoadFactor, Outcome, Proved,
+    Bracket, Claims, Control, LoadFactor, Outcome, Proved,
     coulomb::{self, DryLoadFactor, Found},
-    limit,
+    limit, mend,
     parts::{self, limit::PartMethods},
 };
 use crate::{
@@ -73,8 +73,22 @@ pub fn tilt(model: &Model, toward: Vector3<f64>, control: &Control) -> Result<Ti
             &PartMethods { solve: tilted_part, at: tilted_under },
         )
     };
-    let model = tilted(model, toward, load_factor.value)?;
-    Ok(Tilt { toward, load_factor: Proved::new(&model, load_factor), model, dry: None })
+    let (load_factor, model) = proved(model, toward, load_factor, |l| l.value)?;
+    Ok(Tilt { toward, load_factor, model, dry: None })
+}
+
+/// An answer that is checked, and the model that it is about: where nothing is left of it after
+/// the check, that of no tilt.
+fn proved<T: Claims>(
+    model: &Model,
+    toward: Vector3<f64>,
+    answer: T,
+    value: impl Fn(&T) -> Option<f64>,
+) -> Result<(Proved<T>, Model), InputError> {
+    let at = tilted(model, toward, value(&answer))?;
+    let proved = Proved::new(&at, answer);
+    let left = if proved.refused().is_some() { tilted(model, toward, value(&proved))? } else { at };
+    Ok((proved, left))
 }
 
 /// A part with its joints as they are at a tilt.
@@ -97,6 +111,9 @@ fn tilted_part(part: &Part, control: &Control) -> LoadFactor {
         // found with.
         Ok(mut answer) => {
             answer.bracket.upper += 2.0 * OWN_ANSWER * answer.value.map_or(0.0, f64::abs);
+            if let Some(tilt) = found(&answer) {
+                mend::cut(&tilted_joints(part, tilt).interfaces, &mut answer.forces);
+            }
             answer
         }
         // What has no limit at one tilt may have one at another, where the joints are weaker beside
@@ -127,8 +144,8 @@ impl Tilt {
     ) -> Result<(), InputError> {
         if coulomb::is_asked(&self.load_factor, level, control) {
             let load_factor = dry(model, self, level, control)?;
-            let model = tilted(model, self.toward, load_factor.value)?;
-            self.dry = Some(DryTilt { load_factor: Proved::new(&model, load_factor), model });
+            let (load_factor, model) = proved(model, self.toward, load_factor, |l| l.value)?;
+            self.dry = Some(DryTilt { load_factor, model });
         }
         Ok(())
     }
@@ -167,8 +184,13 @@ fn dry(
             }
         };
         let value = |d: &DryLoadFactor| d.value.map(|v| part.units.load_factor(v));
-        let answer = match own_answer(start, at, value) {
-            Ok(answer) => answer,
+        let answer = || match own_answer(start, at, value) {
+            Ok(mut answer) => {
+                if let Some(tilt) = value(&answer) {
+                    mend::cut(&tilted_joints(part, tilt).interfaces, &mut answer.forces);
+                }
+                answer
+            }
             Err(answer) => DryLoadFactor { found: Found::Undecided, value: None, ..answer },
         };
         let at = |lambda: f64| tilted_under(part, part.units.load_factor(lambda));

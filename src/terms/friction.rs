@@ -19,7 +19,8 @@ pub enum Found {
     Rests,
     /// The state under dry friction rests up to the value; what it does from there to where it
     /// moves, or else to the bound, little more
-    /// ([`REST_WITHIN`](crate::tolerance::REST_WITHIN)), did not come out. Computed, not proved.
+    /// ([`REST_WITHIN`](crate::tolerance::REST_WITHIN)), did not come out, or was not asked of many
+    /// blocks. Computed, not proved.
     RestsBelow,
     /// The state under dry friction rests at a load factor that was asked for, because another
     /// answer is no higher: there is no value, only that it is not less. Computed, not proved.

@@ -373,6 +373,19 @@ fn what_rests_little_below_the_bound_has_the_safe_end_for_a_value() {
     }
 }
 
+/// Two courses of 401 blocks slide as one: what is easy is asked to the end, however large.
+#[test]
+fn a_long_wall_slides_at_its_coefficient_of_friction() {
+    let (answer, _) = dry(&scene(&json!({
+        "format": "voussoir-scene/1",
+        "materials": { "stone": { "density": 2400 } },
+        "joints": { "default": { "friction": 0.6 } },
+        "templates": [{ "wall": { "size": [1, 0.5, 0.5], "courses": 2, "blocks": 401 } }],
+        "loads": { "live": [{ "weight": [1, 0, 0] }] }
+    })));
+    assert!(answer.is_reached() && (answer.value.unwrap() - 0.6).abs() < 1e-6, "{answer:?}");
+}
+
 /// What a verdict is worth on the way of a growing load.
 fn rank(verdict: Verdict) -> usize {
     match verdict {

@@ -3,7 +3,7 @@
 #[cfg(doc)]
 use crate::verdict::law;
 use crate::{
-    analysis::Deciding,
+    analysis::{Deciding, LoadFactor},
     terms::{Found, is_reached},
     verdict::{Forces, Rate},
 };
@@ -37,6 +37,22 @@ pub struct DryLoadFactor {
 }
 
 impl DryLoadFactor {
+    /// No answer yet.
+    pub(super) fn unanswered(associative: &LoadFactor) -> Self {
+        Self {
+            found: Found::Undecided,
+            value: None,
+            rests_at: None,
+            moves_at: None,
+            part: None,
+            natural_map: f64::INFINITY,
+            natural_map_in_loads: f64::INFINITY,
+            solves: 0,
+            forces: associative.forces.clone(),
+            rates: associative.rates.clone(),
+        }
+    }
+
     /// Whether the state was seen at rest just below the value.
     pub fn is_reached(&self) -> bool {
         self.rests_at.zip(self.value).is_some_and(|(rests_at, value)| is_reached(rests_at, value))

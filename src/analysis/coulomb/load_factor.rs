@@ -10,7 +10,10 @@
 //! Forces and a mechanism at λ say that the scene moves there, not that it comes to rest below:
 //! that is asked of the state ([`rest`](super::rest)).
 
-use super::{answer::DryLoadFactor, crushing::within_strength, rest::up_to_rest, state::state};
+use super::{
+    answer::DryLoadFactor, crushing::within_strength, distance::Distance, rest::up_to_rest,
+    state::state,
+};
 use crate::{
     analysis::{Control, LoadFactor, Outcome, mend},
     assembly::Wrench,
@@ -26,7 +29,7 @@ use crate::{
     strength::laws::unlimited,
     terms::{Found, StateMotion},
     tolerance,
-    verdict::{Forces, Rate, Verdict, certificate, check, law},
+    verdict::{Forces, Rate, Verdict, certificate, check},
 };
 
 /// δ, and the change of the friction limits (mean block loads) at which the next one is taken up.
@@ -61,10 +64,11 @@ pub(in crate::analysis) fn of_part(
 ) -> DryLoadFactor {
     // What falls by itself has none to look for, but one below zero where nothing could be wedged.
     let is_below_zero = associative.found().is_some_and(|bound| bound <= 0.0);
-    let answer = if dead == Some(Verdict::Unstable) && !(is_below_zero && is_forest(model)) {
-        unanswered(associative)
-    } else {
-        complementary(model, associative, control)
+    let answer = || match dead {
+        Some(Verdict::Unstable) if !(is_below_zero && is_forest(model)) => {
+            DryLoadFactor::unanswered(associative)
+        }
+        _ => complementary(model, associative, control),
     };
     up_to_rest(
         answer,
@@ -83,20 +87,14 @@ pub(in crate::analysis) fn complementary(
     associative: &LoadFactor,
     control: &Control,
 ) -> DryLoadFactor {
-    let map = |forces: &Forces, rates: &[Rate]| {
-        law::natural_map(model, forces, rates).unwrap_or(f64::INFINITY)
-    };
-    let mut answer = unanswered(associative);
+    let mut answer = DryLoadFactor::unanswered(associative);
     if associative.outcome == Outcome::Impossible || control.deadline.is_over() {
         return answer;
     }
     if associative.outcome == Outcome::Found {
-        answer.natural_map = map(&associative.forces, &associative.rates);
-        answer.natural_map_in_loads =
-            check::dry_map(model, &associative.forces, &associative.rates);
-        if answer.natural_map <= tolerance::DRY_LAW
-            && answer.natural_map_in_loads <= tolerance::NATURAL_MAP
-        {
+        let distance = Distance::of(model, &associative.forces, &associative.rates);
+        distance.told(&mut answer);
+        if distance.is_obeyed() {
             (answer.found, answer.value) = (Found::NothingSlides, associative.value);
             return answer;
         }
@@ -120,22 +118,6 @@ pub(in crate::analysis) fn complementary(
         lowered(&scene, whole, control, &mut answer);
     }
     answer
-}
-
-/// No answer yet.
-fn unanswered(associative: &LoadFactor) -> DryLoadFactor {
-    DryLoadFactor {
-        found: Found::Undecided,
-        value: None,
-        rests_at: None,
-        moves_at: None,
-        part: None,
-        natural_map: f64::INFINITY,
-        natural_map_in_loads: f64::INFINITY,
-        solves: 0,
-        forces: associative.forces.clone(),
-        rates: associative.rates.clone(),
-    }
 }
 
 /// What a value is asked of.
@@ -237,15 +219,13 @@ fn accept(
         .into_iter()
         .map(|(velocity, spin)| Rate { velocity, spin })
         .collect();
-    let natural_map = law::natural_map(model, &forces, &rates).unwrap_or(f64::INFINITY);
-    let natural_map_in_loads = check::dry_map(model, &forces, &rates);
+    let distance = Distance::of(model, &forces, &rates);
     // The forces as they are, cut to their limits, balance best at this load factor.
     let lambda =
         contacts.best_factor(point.lambda, &contacts.residual(&point.forces, point.lambda));
     let lambda = lower_end(scene, &forces, &rates, lambda);
     let s = certificate::statics(model, &forces, lambda);
-    let obeys = natural_map <= tolerance::DRY_LAW && natural_map_in_loads <= tolerance::NATURAL_MAP;
-    let found = obeys
+    let found = distance.is_obeyed()
         && s.is_within_strength()
         && s.unbalance <= tolerance::DRY_BALANCE
         && hidden(model, &s.residuals, &rates) <= check::dry_width(&model.assembly, lambda);
@@ -253,7 +233,7 @@ fn accept(
         (answer.found, answer.value) = (Found::FixedPoint, Some(lambda));
     }
     (answer.forces, answer.rates) = (forces, rates);
-    (answer.natural_map, answer.natural_map_in_loads) = (natural_map, natural_map_in_loads);
+    distance.told(answer);
     found
 }
 

@@ -10,6 +10,7 @@ use crate::{
 
 mod answer;
 mod crushing;
+mod distance;
 mod load_factor;
 mod rest;
 mod state;

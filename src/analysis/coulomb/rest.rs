@@ -11,6 +11,7 @@
 
 use super::{
     answer::DryLoadFactor,
+    distance::slides_nowhere,
     state::{State, state},
 };
 use crate::{
@@ -32,8 +33,14 @@ const ON_THE_WAY: [f64; 3] = [0.25, 0.5, 0.75];
 const ON_THE_WAY_OF_FEW: [f64; 11] =
     [0.05, 0.15, 0.25, 0.35, 0.45, 0.55, 0.65, 0.75, 0.85, 0.95, 0.99];
 const FEW: usize = 100;
-/// The same for scenes of more than [`MANY`] free blocks, a state of which takes seconds.
-const ON_THE_WAY_OF_MANY: [f64; 1] = [0.5];
+/// The same for scenes of more than [`MANY`] free blocks, a state of which takes seconds; the last
+/// one is near enough to the bound to be a value. They are asked beside the search for one.
+const ON_THE_WAY_OF_MANY: [f64; 2] = [0.5, 1.0 - 0.95 * tolerance::REST_WITHIN];
+
+/// No more free blocks than this: a value is searched for even where the state next to the bound
+/// rests and had to be sought from afar. More: a minute and longer for a search that finds none
+/// (walls of 30 × 30 and 40 × 40). Fewer: values are lost (25 × 25 has one).
+const MOST_SEARCHED: usize = 800;
 
 /// How far below the value the state is asked, in shares of it; the next one where the one before
 /// does not come out. Nearer: states that neither rest nor move. Farther: what the value says is
@@ -71,6 +78,8 @@ struct Probe<'a> {
     seen: Vec<(f64, State)>,
     /// Most of them that stay undecided.
     most_open: usize,
+    /// How narrow what lies between rest and the rest has to be where nothing moves.
+    open_width: f64,
 }
 
 impl Probe<'_> {
@@ -118,6 +127,46 @@ impl Probe<'_> {
             && self.seen_to(StateMotion::Undecided).count() >= self.most_open
     }
 
+    /// The search for a value of a scene of many blocks, with the states on the way to its bound
+    /// beside it, or in place of it.
+    fn beside(
+        &mut self,
+        search: impl FnOnce() -> DryLoadFactor,
+        bound: f64,
+        assembly: &Assembly,
+        associative: &LoadFactor,
+    ) -> DryLoadFactor {
+        let states = || self.on_the_way_of_many(bound);
+        let are_dear = |seen: &[(f64, State)]| seen.iter().any(|(_, s)| s.from_afar);
+        let answer;
+        if assembly.free().count() <= MOST_SEARCHED {
+            (answer, self.seen) = parallel::both(true, search, states);
+        } else {
+            self.seen = states();
+            let is_near = self.rests_at() >= (1.0 - tolerance::REST_WITHIN) * bound;
+            let is_enough = is_near && are_dear(&self.seen);
+            answer = if is_enough { DryLoadFactor::unanswered(associative) } else { search() };
+        }
+        if are_dear(&self.seen) {
+            self.open_width = tolerance::REST_WITHIN;
+        }
+        answer
+    }
+
+    /// The states on the way to a bound, one after the other, until one does not rest.
+    fn on_the_way_of_many(&self, bound: f64) -> Vec<(f64, State)> {
+        let mut seen = Vec::new();
+        for share in ON_THE_WAY_OF_MANY {
+            let Some(state) = self.state(share * bound) else { break };
+            let rests = state.1.motion == StateMotion::Rests;
+            seen.push(state);
+            if !rests {
+                break;
+            }
+        }
+        seen
+    }
+
     /// Asks at these shares of a load factor, some at a time on all threads, until one moves or
     /// nothing more is to be had; false where the time is over before.
     fn climb(&mut self, shares: &[f64], of: f64) -> bool {
@@ -151,7 +200,7 @@ impl Probe<'_> {
             let width = if self.moves().is_some() {
                 tolerance::DRY_CRITICAL_WIDTH
             } else {
-                tolerance::REST_BELOW
+                self.open_width
             };
             let rests = self.rests_at();
             if self.is_hopeless() || above - rests <= width * above.abs() {
@@ -172,13 +221,31 @@ impl Probe<'_> {
 /// the verdict under the dead load, where it is known, `at` the `assembly` under a load factor as
 /// its dead load.
 pub(in crate::analysis) fn up_to_rest(
-    mut answer: DryLoadFactor,
+    complementary: impl FnOnce() -> DryLoadFactor,
     assembly: &Assembly,
     associative: &LoadFactor,
     dead: Option<Verdict>,
     at: &(dyn Fn(f64) -> Model + Sync),
     control: &Control,
 ) -> DryLoadFactor {
+    let is_large = assembly.free().count() > MANY;
+    let mut probe = Probe {
+        at,
+        control,
+        seen: Vec::new(),
+        most_open: MOST_OPEN,
+        open_width: tolerance::REST_BELOW,
+    };
+    let towards = associative.found().filter(|&bound| {
+        is_large
+            && bound > 0.0
+            && dead == Some(Verdict::Stable)
+            && !slides_nowhere(&at(bound), associative)
+    });
+    let mut answer = match towards {
+        Some(bound) => probe.beside(complementary, bound, assembly, associative),
+        None => complementary(),
+    };
     let bound = associative.value.filter(|_| associative.outcome == Outcome::Found);
     // Nothing may be added to the dead load, as far as numbers tell: the value is zero where that
     // rests.
@@ -191,7 +258,6 @@ pub(in crate::analysis) fn up_to_rest(
         }
         return answer;
     }
-    let mut probe = Probe { at, control, seen: Vec::new(), most_open: MOST_OPEN };
     // Where contacts form no closed chain there is nothing that could be wedged, and what the dead
     // load leaves standing stands up to the value; up to the bound, where no other one came out. A
     // value of which the dead load falls already is not reached from it; one below zero says so
@@ -275,7 +341,9 @@ fn climb(
     let goal = answer.value.or(associative.value);
     match goal {
         Some(goal) => {
-            probe.climb(on_the_way, goal);
+            if probe.seen.is_empty() {
+                probe.climb(on_the_way, goal);
+            }
             below(probe, goal, answer.value.is_some());
             if answer.value.is_some() && blocks <= MANY {
                 above(probe, goal, bound.unwrap_or(f64::INFINITY));
@@ -338,7 +406,8 @@ fn climb(
 /// bound does not next to it.
 fn below(probe: &mut Probe, goal: f64, is_value: bool) {
     let halfway = probe.rests_at();
-    if !is_value && halfway < ON_THE_WAY[ON_THE_WAY.len() - 1] * goal {
+    let is_far = halfway < ON_THE_WAY[ON_THE_WAY.len() - 1] * goal;
+    if !is_value && (is_far || goal - halfway <= probe.open_width * goal.abs()) {
         return;
     }
     for share in BELOW {

@@ -38,6 +38,8 @@ pub struct State {
     pub steps: Vec<StateStep>,
     /// Contact forces of the last step, N.
     pub forces: Forces,
+    /// Whether it had to be sought from afar, along a curve of rounded laws: the dearest way.
+    pub from_afar: bool,
 }
 
 /// The ε of the continuation. Fewer: long chains of joints, an arch of 10,000 slices, still bend
@@ -67,9 +69,10 @@ const EASY: usize = 4;
 /// states are lost (2 of 993 with one ε, none with two). More: minutes for states that stay open.
 const HOPELESS: (f64, usize) = (0.1, 2);
 
-/// How often a curve of rounded laws is followed that leads nowhere: what is lost at one ε is at the
-/// next. Fewer: such states are not reached. More: as much time again.
-const MOST_LOST_CURVES: usize = 2;
+/// Curves are followed to no larger ε than this at once, and the next branches off the one before.
+/// Larger: a curve for each ε (a wall of 40 × 40 has four times the factorisations from 1e-5 on).
+/// Smaller: rounding.
+const FAR: f64 = 1e-8;
 
 /// A fixed point is none of the law where it is further from it than so many times the one before
 /// (and than [`tolerance::MOTION_BREACH`]): joints that crush may lead there.
@@ -104,28 +107,38 @@ pub fn refined(model: &Model, control: &Control, epsilon: f64) -> State {
     let whole = Contacts::new(model, StaticsOptions { symmetry: false, ..options });
     let mut answer = continued(model, whole, control, epsilon);
     answer.steps.splice(0..0, part.steps);
+    answer.from_afar |= part.from_afar;
     answer
 }
 
 /// Curves of rounded laws, as long as they lead anywhere.
 #[derive(Default)]
 struct Curves {
-    lost: usize,
+    /// Whether one led nowhere: at the next ε it is the same one.
+    is_lost: bool,
+    /// Whether the last state came from one.
+    is_followed: bool,
 }
 
 impl Curves {
+    /// The state at this ε, or at the one that curves are followed to, which is told.
     fn follow(
         &mut self,
         law: &mut Exact,
         contacts: &Contacts,
-        epsilon: f64,
+        epsilon: &mut f64,
         control: &Control,
     ) -> Option<(Solved, f64)> {
-        if self.lost == MOST_LOST_CURVES {
+        if self.is_lost {
             return None;
         }
-        let solved = law.tracked(contacts, epsilon, control.deadline);
-        self.lost += usize::from(solved.is_none());
+        let far = epsilon.min(FAR);
+        let solved = law.tracked(contacts, far, control.deadline);
+        self.is_followed = solved.is_some();
+        self.is_lost = !self.is_followed;
+        if self.is_followed {
+            *epsilon = far;
+        }
         solved
     }
 }
@@ -134,8 +147,12 @@ impl Curves {
 fn continued(model: &Model, mut contacts: Contacts, control: &Control, least: f64) -> State {
     let interfaces = &model.interfaces;
     let settings = Settings { tolerance: 1e-10, deadline: control.deadline, ..Settings::default() };
-    let mut answer =
-        State { motion: StateMotion::Undecided, steps: Vec::new(), forces: Vec::new() };
+    let mut answer = State {
+        motion: StateMotion::Undecided,
+        steps: Vec::new(),
+        forces: Vec::new(),
+        from_afar: false,
+    };
     let still = vec![0.0; contacts.discs().count()];
     let once = StoppingCriterion { solves: 1, ..STOP };
     let mut exact = f64::INFINITY;
@@ -157,7 +174,8 @@ fn continued(model: &Model, mut contacts: Contacts, control: &Control, least: f6
         once,
         solvers,
     );
-    for epsilon in EPSILONS {
+    let mut reached = f64::INFINITY;
+    while let Some(mut epsilon) = EPSILONS.into_iter().find(|&epsilon| epsilon < reached) {
         let Some(from) = last.take().filter(|_| !control.deadline.is_over()) else { break };
         let start = Instant::now();
         let sections = contacts.statics.sections.clone();
@@ -173,8 +191,12 @@ fn continued(model: &Model, mut contacts: Contacts, control: &Control, least: f6
             .as_mut()
             .filter(|_| from.solves == 0 || from.solves > EASY)
             .and_then(|e| {
-                e.on(&contacts, &mut trail, epsilon, control.deadline)
-                    .or_else(|| curves.follow(e, &contacts, epsilon, control))
+                let branch = std::mem::take(&mut curves.is_followed)
+                    .then(|| curves.follow(e, &contacts, &mut epsilon, control))
+                    .flatten();
+                branch
+                    .or_else(|| e.on(&contacts, &mut trail, epsilon, control.deadline))
+                    .or_else(|| curves.follow(e, &contacts, &mut epsilon, control))
             })
             .map(|solved| by_the_law(&contacts, solved, 0));
         let is_followed = followed.is_some();
@@ -200,13 +222,17 @@ fn continued(model: &Model, mut contacts: Contacts, control: &Control, least: f6
             && let Some(solver) = exactly.as_mut().and_then(Option::as_mut)
             && let Some(solved) =
                 solver.near(&contacts, epsilon, &point.rates, control.deadline).or_else(|| {
-                    is_lost.then(|| curves.follow(solver, &contacts, epsilon, control)).flatten()
+                    is_lost
+                        .then(|| curves.follow(solver, &contacts, &mut epsilon, control))
+                        .flatten()
                 })
         {
             point = by_the_law(&contacts, solved, point.solves);
             forces = contacts.statics.forces(interfaces, &point.forces);
             moved = law::motion(model, &forces);
         }
+        reached = epsilon;
+        answer.from_afar |= curves.is_followed || curves.is_lost;
         let decided = decide(&history, epsilon, &point, &moved);
         answer.steps.push(StateStep {
             epsilon,
@@ -345,6 +371,9 @@ fn decide(history: &[Seen], epsilon: f64, point: &FixedPoint, moved: &Released) 
     if before.change.max(point.change) > tolerance::COULOMB_SETTLED {
         return StateMotion::Undecided;
     }
+    let by = before.epsilon / epsilon;
+    let [falls_to, stays_above] =
+        [tolerance::ACCELERATION_FALLS, tolerance::ACCELERATION_STAYS].map(|a| a.powf(by.log10()));
     // An acceleration that grew as ε fell, or that unsettled friction may have made, is no measure
     // for the next one.
     let grew = |i: usize| matches!(history, [.., earlier, _] if before.accelerations[i] > 2.0 * earlier.accelerations[i]);
@@ -358,21 +387,18 @@ fn decide(history: &[Seen], epsilon: f64, point: &FixedPoint, moved: &Released) 
     };
     // Every block for itself: what sinks on soft joints must not hide what moves beside it.
     // What the compliance explains falls with ε; what is left of it may hide no motion.
-    let by = before.epsilon / epsilon;
     let falls = |(i, &a): (usize, &f64)| {
         let earlier = before.accelerations[i];
         a <= rest
             || ((is_measure(i) || fell(i))
-                && a < tolerance::ACCELERATION_FALLS * earlier
+                && a < falls_to * earlier
                 && (by * a - earlier) / (by - 1.0) <= tolerance::LEAST_MOTION)
     };
     if moved.accelerations.iter().enumerate().all(falls) {
         return StateMotion::Rests;
     }
     let stays = |(i, &a): (usize, &f64)| {
-        a == moved.acceleration
-            && is_measure(i)
-            && a > tolerance::ACCELERATION_STAYS * before.accelerations[i]
+        a == moved.acceleration && is_measure(i) && a > stays_above * before.accelerations[i]
     };
     if moved.is_motion() && moved.accelerations.iter().enumerate().any(stays) {
         StateMotion::Moves

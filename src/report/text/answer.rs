@@ -276,7 +276,7 @@ fn dry(page: &mut Page, file: &ResultFile) {
                 Some(m) => (format!(", and no longer at {}", words(m)), "in between"),
                 None => (String::new(), "between there and the bound"),
             };
-            format!("With dry friction (joints slide without opening) the blocks come to rest up to {}{moves}; what they do {above} did not come out. Computed, not proved.", words(v))
+            format!("With dry friction (joints slide without opening) the blocks come to rest up to {}{moves}; what they do {above} is not known. Computed, not proved.", words(v))
         }
         (Found::NotAtRest, _) if falls_by_itself(file) => {
             "With dry friction there is no load factor: already the dead load finds no forces that balance it.".to_string()

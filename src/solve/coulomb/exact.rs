@@ -9,7 +9,7 @@
 //! near, and following it there ([`Exact::on`]) costs milliseconds where the fixed point on 164
 //! blocks of a bridge takes tenths of a second.
 
-use super::newton::Solved;
+use super::{newton::Solved, place::Trunk};
 use crate::{
     deadline::Deadline,
     program::{
@@ -54,6 +54,8 @@ pub struct Exact {
     carried: Vec<f64>,
     /// How many matrices it has factored.
     pub(super) factors: usize,
+    /// What the next curve of rounded laws has in common with the last one.
+    pub(super) trunk: Trunk,
 }
 
 impl Exact {
@@ -65,7 +67,13 @@ impl Exact {
         let response = Response::new(contacts)?;
         let (starts, rows) = response.pattern();
         let lu = Lu::new(&Pattern { starts: starts.to_vec(), rows: rows.to_vec() })?;
-        Some(Self { response, lu, carried: contacts.carried(), factors: 0 })
+        Some(Self {
+            response,
+            lu,
+            carried: contacts.carried(),
+            factors: 0,
+            trunk: Trunk::default(),
+        })
     }
 
     /// The state at ε near `rates`, and the imbalance it leaves, in the loads that pass the blocks;

@@ -12,6 +12,7 @@ mod exact;
 mod fixed_point;
 mod law;
 mod newton;
+mod place;
 mod point;
 mod track;
 

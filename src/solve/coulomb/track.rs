@@ -14,6 +14,7 @@ use super::{
     Exact,
     exact::allowed,
     newton::{Solved, dot},
+    place::{LENGTH, Passed, Place, Trunk, along, unit},
 };
 use crate::{
     deadline::Deadline,
@@ -32,9 +33,6 @@ const FREER: f64 = 5.0;
 const SHARP: f64 = -16.0;
 /// A curve that comes back to where corners are this much rounder than at its start is given up.
 const BACK: f64 = 2.0;
-/// The change of a rate, in displacements of joints under a mean load, that is as long as the same
-/// of `s`. More: the curve turns too sharply for its steps. Less: more of them.
-const LENGTH: f64 = 30.0;
 /// A place is on the curve when so much of the rounding is left as imbalance. More: soft blocks,
 /// which little moves far, leave the curve. Less: factorisations for nothing.
 const ON: f64 = 1e-4;
@@ -61,23 +59,12 @@ const FACTORS_OF_LARGE: (usize, usize) = (4_000, 400);
 const FIRST: usize = 30;
 /// The difference by which the change along `s` is measured.
 const DIFFERENCE: f64 = 1e-4;
-
-/// A place on the curve, or a way along it.
-#[derive(Clone)]
-struct Place {
-    rates: Vec<f64>,
-    s: f64,
-}
-
-impl Place {
-    fn dot(&self, other: &Self) -> f64 {
-        dot(&self.rates, &other.rates) / (LENGTH * LENGTH) + self.s * other.s
-    }
-
-    fn on(&self, way: &Self, by: f64) -> Self {
-        Self { rates: along(&self.rates, &way.rates, by), s: self.s + by * way.s }
-    }
-}
+/// Places are remembered as `s` falls by this. Less: memory. More: more of the curve is followed
+/// again.
+const REMEMBERED: f64 = 0.25;
+/// The curve of a smaller ε branches off where the drag is this × the larger one, for up to there the
+/// two are nearly the same. Less: it does not get from one to the other. More: more is followed twice.
+const BRANCH: f64 = 3.0;
 
 /// A curve as it is followed.
 struct Curve<'a> {
@@ -88,6 +75,8 @@ struct Curve<'a> {
     end: Deadline,
     /// The number of factorisations at which it is given up.
     most: usize,
+    /// What is remembered of it.
+    places: Vec<Passed>,
 }
 
 impl Exact {
@@ -103,10 +92,17 @@ impl Exact {
         let (large, of_large) = FACTORS_OF_LARGE;
         let most = (FACTORS[0] + rows).min(if rows > large { of_large } else { FACTORS[1] });
         let most = self.factors + most;
-        DRAGS.iter().find_map(|&drag| {
+        let trunk = std::mem::take(&mut self.trunk);
+        let branch = (!trunk.places.is_empty()).then_some((trunk.drag, trunk.places));
+        let mut tries = branch.into_iter().chain(DRAGS.map(|drag| (drag, Vec::new())));
+        tries.find_map(|(drag, places)| {
             let law = &mut *self;
-            let sharp = Curve { law, contacts, epsilon, drag, end, most }.followed()?;
-            self.near(contacts, epsilon, &sharp, end)
+            let mut curve = Curve { law, contacts, epsilon, drag, end, most, places };
+            let sharp = curve.followed()?;
+            let places = std::mem::take(&mut curve.places);
+            let reached = self.near(contacts, epsilon, &sharp, end)?;
+            self.trunk = Trunk { drag, places };
+            Some(reached)
         })
     }
 }
@@ -114,9 +110,7 @@ impl Exact {
 impl Curve<'_> {
     /// The rates where corners are sharp.
     fn followed(&mut self) -> Option<Vec<f64>> {
-        let (mut place, along_s) = self.start()?;
-        let mut way = unit(along_s, None);
-        let mut step = STEPS[0];
+        let (mut place, mut way, mut step) = self.branch().map_or_else(|| self.start(), Some)?;
         while self.law.factors < self.most && place.s < BACK {
             let before = self.law.factors;
             match self.corrected(place.on(&way, step), &way) {
@@ -126,6 +120,7 @@ impl Curve<'_> {
                     if place.s < SHARP {
                         return Some(place.rates);
                     }
+                    self.remember(&place, &way, step);
                     match self.law.factors - before {
                         few if few <= CORRECTIONS[0] => step *= LONGER,
                         many if many >= CORRECTIONS[1] => step *= SHORTER,
@@ -140,15 +135,30 @@ impl Curve<'_> {
         None
     }
 
-    /// The start of the curve, from rest, and how rates change with `s` there.
-    fn start(&mut self) -> Option<(Place, Vec<f64>)> {
+    /// Keeps a place that the curve of a smaller ε has nearly in common with this one.
+    fn remember(&mut self, place: &Place, way: &Place, step: f64) {
+        let is_further = self.places.last().is_none_or(|last| place.s <= last.place.s - REMEMBERED);
+        if is_further && self.drag * (FREER * place.s).exp() >= BRANCH * self.epsilon {
+            self.places.push(Passed { place: place.clone(), way: way.clone(), step });
+        }
+    }
+
+    /// The last place that is remembered, moved over to this curve.
+    fn branch(&mut self) -> Option<(Place, Place, f64)> {
+        let Passed { place, way, step } = self.places.last().cloned()?;
+        let (place, along_s) = self.corrected(place, &way)?;
+        Some((place, unit(along_s, Some(&way)), step))
+    }
+
+    /// The start of the curve, from rest, with the way on and the first step.
+    fn start(&mut self) -> Option<(Place, Place, f64)> {
         let mut at = Place { rates: vec![0.0; self.contacts.statics.matrix.rows], s: 0.0 };
         for _ in 0..FIRST {
             let imbalance = self.imbalance(&at);
             let size = self.law.size(&imbalance);
             let (step, along_s) = self.step(&at, &imbalance)?;
             if size <= AT_START {
-                return Some((at, along_s));
+                return Some((at, unit(along_s, None), STEPS[0]));
             }
             let shares = (0..CORRECTIONS[2] as i32).map(|k| 0.5_f64.powi(k));
             at.rates = shares
@@ -211,16 +221,4 @@ impl Curve<'_> {
         let along_s = both.split_off(imbalance.len());
         Some((both, along_s))
     }
-}
-
-/// The way on of length one, towards sharper corners at the start.
-fn unit(along_s: Vec<f64>, before: Option<&Place>) -> Place {
-    let way = Place { rates: along_s, s: 1.0 };
-    let onwards = before.map_or(-1.0, |before| way.dot(before));
-    let by = way.dot(&way).sqrt().recip().copysign(onwards);
-    Place { rates: way.rates.iter().map(|r| by * r).collect(), s: by }
-}
-
-fn along(from: &[f64], way: &[f64], by: f64) -> Vec<f64> {
-    from.iter().zip(way).map(|(from, way)| from + by * way).collect()
 }

@@ -55,6 +55,25 @@ fn what_is_saved_of_odd_directions_is_proved() {
     }
 }
 
+/// Fingers at their strength, which grows with the tilt: forces are cut to what they hold at the
+/// tilt that is said, and what is undecided is about the scene as it stands.
+#[test]
+fn what_is_saved_of_grips_is_proved() {
+    let desk = Desk::new();
+    let saved = desk.proved(YES, &["tilt", &structure("grip-two-fingers"), "--toward=-0.1,-1"]);
+    assert!(saved["members"][0]["state"] == "at_strength", "{}", saved["members"]);
+    desk.proved(YES, &["tilt", &structure("grip-three-fingers"), "--toward=-0.1,-1"]);
+    voussoir(&[
+        "tilt",
+        &structure("grip-three-fingers"),
+        "--toward=0.3,1",
+        "--save",
+        &desk.at("saved.json"),
+    ]);
+    let said = voussoir(&["check", &desk.at("saved.json")]);
+    assert!(!out(&said).contains("refuted"), "{}", out(&said));
+}
+
 #[test]
 fn a_load_factor_of_zero_is_proved() {
     let desk = Desk::new();
