@@ -56,6 +56,13 @@ pub fn fixed(value: f64, decimals: usize) -> String {
     }
 }
 
+/// A load factor that is computed and not proved: five decimals, of small ones four digits.
+pub fn computed(value: f64) -> String {
+    let size = value.abs();
+    let leading = if size > 0.0 && size < 1e-2 { size.log10().floor().max(-300.0) } else { -2.0 };
+    fixed(value, (3 - leading as i32).unsigned_abs() as usize)
+}
+
 /// A few digits, for lengths and directions: `1.25`, `-0.5`, `0`.
 pub fn short(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {
@@ -110,6 +117,14 @@ mod tests {
         assert_eq!(bracketed(0.5, 0.5, 0.5), "0.5000000000");
         assert_eq!(bracketed(2.3456e-7, 2.3455e-7, 2.3457e-7), "2.346e-7");
         assert_eq!(bracketed(-1e-14, -1e-10, 1e-10), "0.000000000");
+    }
+
+    #[test]
+    fn small_load_factors_keep_their_digits() {
+        let said = [0.4376798, 0.01748, 1.7e-3, -0.148, 3.2e-9, 0.0, -0.0].map(computed);
+        let wanted =
+            ["0.43768", "0.01748", "0.001700", "-0.14800", "3.200e-9", "0.00000", "0.00000"];
+        assert_eq!(said, wanted);
     }
 
     #[test]

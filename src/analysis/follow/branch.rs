@@ -183,6 +183,13 @@ impl Tracker<'_> {
         let place = linkage.place(&poses);
         let at =
             self.at(&linkage, &place, value).ok_or_else(|| stuck("the linkage does not close"))?;
+        // Of several motions at once the one in equilibrium may lie far from where it is.
+        if self.deepest(&at.place.poses, &closed).is_some_and(|c| c.gap < -tolerance::JOINT_CLOSED)
+        {
+            return Err(stuck(
+                "several motions begin there at once, and blocks overlap in that which is in equilibrium",
+            ));
+        }
         let margin = self
             .margin(&at.place.poses, &closed, &linkage.holds)
             .ok_or_else(|| stuck("no forces were found"))?;

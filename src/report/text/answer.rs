@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     analysis::{Outcome, coulomb::Found},
-    number::{bracketed, decimals, ends, fixed, point},
+    number::{bracketed, computed, decimals, ends, fixed, point},
     proof::{
         answer::Answer,
         certificate::DryResult,
@@ -41,23 +41,23 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
                 let bound = bracketed(value, lower, upper);
                 let text = match dry_of(file) {
                     Dry::Same => format!("λ = {bound}"),
-                    Dry::Other(v) => format!("λ = {v:.5} with dry friction, at most {bound}"),
+                    Dry::Other(v) => format!("λ = {} with dry friction, at most {bound}", computed(v)),
                     Dry::Never if upper < 0.0 => format!("λ at most {bound}"),
                     // That it falls without is said beside it.
                     Dry::Never if falls_by_itself(file) => format!("no λ with dry friction, at most {bound}"),
                     Dry::Never => format!("no λ with dry friction: not at rest under the dead load (at most {bound} with a pre-stress)"),
-                    Dry::UpTo(v) => format!("λ at most {bound}; with dry friction at rest up to {v:.5}, then undecided"),
+                    Dry::UpTo(v) => format!("λ at most {bound}; with dry friction at rest up to {}, then undecided", computed(v)),
                     Dry::Undecided => format!("λ at most {bound}; with dry friction undecided"),
                 };
                 (text, if matches!(dry_of(file), Dry::Never) { Role::Bad } else { role })
             }
             (Outcome::Unbounded, _) => match dry_value(file) {
-                Some(v) => (format!("the live load wedges where joints open as they slide; with dry friction λ = {v:.5}"), Role::Value),
+                Some(v) => (format!("the live load wedges where joints open as they slide; with dry friction λ = {}", computed(v)), Role::Value),
                 None => match dry_of(file) {
                     Dry::Never => ("no λ with dry friction: not at rest under the dead load".to_string(), Role::Bad),
                     Dry::UpTo(v) => {
                         let text = "the live load wedges where joints open as they slide; with dry friction at rest up to";
-                        (format!("{text} λ = {v:.5}, then undecided"), Role::Unsure)
+                        (format!("{text} λ = {}, then undecided", computed(v)), Role::Unsure)
                     }
                     Dry::Undecided => {
                         ("the live load wedges where joints open as they slide; with dry friction undecided".to_string(), Role::Unsure)
@@ -260,7 +260,8 @@ fn dry(page: &mut Page, file: &ResultFile) {
         if file.question == QuestionKind::Tilt {
             format!("{:.4}°", v.atan().to_degrees())
         } else {
-            format!("{} = {v:.5}", if file.question == QuestionKind::Kinematic { "α" } else { "λ" })
+            let factor = if file.question == QuestionKind::Kinematic { "α" } else { "λ" };
+            format!("{factor} = {}", computed(v))
         }
     };
     let text = match (dry.found, dry.value) {

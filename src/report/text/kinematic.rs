@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     kinematic::{Capacity, Elastic, LimitState, Participation, Unique},
-    number::{bracketed, ends, point, short},
+    number::{bracketed, computed, ends, point, short},
     proof::{
         answer::{FactorStatus, LoadFactorAnswer},
         kinematic::KinematicAnswer,
@@ -38,7 +38,7 @@ fn alpha(l: &LoadFactorAnswer) -> Option<String> {
     let value = l.value?;
     Some(match l.associative.found() {
         Some((bound, lower, upper)) if bound == value => bracketed(value, lower, upper),
-        _ => format!("{value:.5}"),
+        _ => computed(value),
     })
 }
 

@@ -2,7 +2,7 @@
 
 use super::{TextOptions, cut, page::Page};
 use crate::{
-    number::{bracketed, count, short},
+    number::{bracketed, computed, count, short},
     proof::{
         answer::FactorStatus,
         moving::MovingAnswer,
@@ -87,7 +87,7 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
             (FactorStatus::Found, Some(v), Some((bound, lower, upper))) if v == bound => {
                 format!("λ = {}", bracketed(v, lower, upper))
             }
-            (FactorStatus::Found, Some(v), _) => format!("λ = {v:.5} with dry friction"),
+            (FactorStatus::Found, Some(v), _) => format!("λ = {} with dry friction", computed(v)),
             (FactorStatus::Unbounded, ..) => "no limit".into(),
             (FactorStatus::Impossible, ..) => "falls, whatever the train".into(),
             (FactorStatus::AtLeast, _, bound) => {

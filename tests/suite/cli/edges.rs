@@ -127,3 +127,11 @@ fn a_load_factor_that_jumps_below_zero_has_not_vanished() {
     let question = ["kinematic", &structure("arch-with-point-load")];
     desk.proved(YES, &question);
 }
+
+/// Across its plane an arch has several motions that begin at the same load factor.
+#[test]
+fn a_curve_holds_no_pose_in_which_blocks_overlap() {
+    let desk = Desk::new();
+    let saved = desk.proved(YES, &["kinematic", &structure("oppenheim-arch")]);
+    assert!(saved["answer"]["kinematic"]["toward"] == json!([0.0, 1.0, 0.0]));
+}
