@@ -114,7 +114,7 @@ pub fn refined(model: &Model, control: &Control, epsilon: f64) -> State {
 /// Curves of rounded laws, as long as they lead anywhere.
 #[derive(Default)]
 struct Curves {
-    /// Whether one led nowhere: at the next ε it is the same one.
+    /// Whether they led nowhere: at the next ε they are much the same.
     is_lost: bool,
     /// Whether the last state came from one.
     is_followed: bool,
@@ -132,13 +132,14 @@ impl Curves {
         if self.is_lost {
             return None;
         }
+        let mut to = |epsilon| Some((epsilon, law.tracked(contacts, epsilon, control.deadline)?));
         let far = epsilon.min(FAR);
-        let solved = law.tracked(contacts, far, control.deadline);
+        // What moves may be told at a large ε, and not be followed to a small one.
+        let (reached, solved) =
+            to(far).or_else(|| (far < *epsilon).then(|| to(*epsilon)).flatten()).unzip();
         self.is_followed = solved.is_some();
         self.is_lost = !self.is_followed;
-        if self.is_followed {
-            *epsilon = far;
-        }
+        *epsilon = reached.unwrap_or(*epsilon);
         solved
     }
 }
