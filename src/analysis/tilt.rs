@@ -18,8 +18,10 @@ use crate::{
     interface::{Model, Part},
     strength::laws::are_dry,
     tolerance,
-    verdict::Verdict,
-    verdict::tilted::{stressed, tilted, turned},
+    verdict::{
+        Forces, Verdict,
+        tilted::{stressed, tilted, turned},
+    },
 };
 use nalgebra::Vector3;
 
@@ -96,6 +98,13 @@ fn tilted_joints(part: &Part, tilt: f64) -> Model {
     part.model.with_interfaces(stressed(&part.model.interfaces, tilt))
 }
 
+/// Forces cut to what the joints of a part bear at a tilt.
+fn cut_at(part: &Part, tilt: Option<f64>, forces: &mut Forces) {
+    if let Some(tilt) = tilt {
+        mend::cut(&tilted_joints(part, tilt).interfaces, forces);
+    }
+}
+
 /// A part under its loads at a tilt.
 fn tilted_under(part: &Part, tilt: f64) -> Model {
     let assembly = part.model.assembly.at_load_factor(part.units.own_load_factor(tilt));
@@ -111,9 +120,7 @@ fn tilted_part(part: &Part, control: &Control) -> LoadFactor {
         // found with.
         Ok(mut answer) => {
             answer.bracket.upper += 2.0 * OWN_ANSWER * answer.value.map_or(0.0, f64::abs);
-            if let Some(tilt) = found(&answer) {
-                mend::cut(&tilted_joints(part, tilt).interfaces, &mut answer.forces);
-            }
+            cut_at(part, found(&answer), &mut answer.forces);
             answer
         }
         // What has no limit at one tilt may have one at another, where the joints are weaker beside
@@ -186,9 +193,7 @@ fn dry(
         let value = |d: &DryLoadFactor| d.value.map(|v| part.units.load_factor(v));
         let answer = || match own_answer(start, at, value) {
             Ok(mut answer) => {
-                if let Some(tilt) = value(&answer) {
-                    mend::cut(&tilted_joints(part, tilt).interfaces, &mut answer.forces);
-                }
+                cut_at(part, value(&answer), &mut answer.forces);
                 answer
             }
             Err(answer) => DryLoadFactor { found: Found::Undecided, value: None, ..answer },

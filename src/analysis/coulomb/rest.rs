@@ -91,8 +91,11 @@ impl Probe<'_> {
         Some((lambda, state(&(self.at)(lambda), self.control)))
     }
 
-    /// What the state does at a load factor; nothing where the time is over.
+    /// What the state does at a load factor, which is asked once; nothing where the time is over.
     fn ask(&mut self, lambda: f64) -> Option<StateMotion> {
+        if let Some((_, known)) = self.seen.iter().find(|(seen, _)| *seen == lambda) {
+            return Some(known.motion);
+        }
         self.seen.push(self.state(lambda)?);
         self.seen.last().map(|(_, state)| state.motion)
     }
@@ -128,15 +131,15 @@ impl Probe<'_> {
     }
 
     /// The search for a value of a scene of many blocks, with the states on the way to its bound
-    /// beside it, or in place of it.
+    /// (from the `first` share of it on) beside it, or in place of it.
     fn beside(
         &mut self,
         search: impl FnOnce() -> DryLoadFactor,
-        bound: f64,
+        (first, bound): (Option<f64>, f64),
         assembly: &Assembly,
         associative: &LoadFactor,
     ) -> DryLoadFactor {
-        let states = || self.on_the_way_of_many(bound);
+        let states = || self.on_the_way_of_many(first, bound);
         let are_dear = |seen: &[(f64, State)]| seen.iter().any(|(_, s)| s.from_afar);
         let answer;
         if assembly.free().count() <= MOST_SEARCHED {
@@ -154,9 +157,9 @@ impl Probe<'_> {
     }
 
     /// The states on the way to a bound, one after the other, until one does not rest.
-    fn on_the_way_of_many(&self, bound: f64) -> Vec<(f64, State)> {
+    fn on_the_way_of_many(&self, first: Option<f64>, bound: f64) -> Vec<(f64, State)> {
         let mut seen = Vec::new();
-        for share in ON_THE_WAY_OF_MANY {
+        for share in first.into_iter().chain(ON_THE_WAY_OF_MANY) {
             let Some(state) = self.state(share * bound) else { break };
             let rests = state.1.motion == StateMotion::Rests;
             seen.push(state);
@@ -239,11 +242,14 @@ pub(in crate::analysis) fn up_to_rest(
     let towards = associative.found().filter(|&bound| {
         is_large
             && bound > 0.0
-            && dead == Some(Verdict::Stable)
+            && dead.is_none_or(|dead| dead == Verdict::Stable)
             && !slides_nowhere(&at(bound), associative)
+            && !is_forest(&at(0.0))
     });
+    // The dead load is asked first, where it is not known.
+    let first = dead.is_none().then_some(0.0);
     let mut answer = match towards {
-        Some(bound) => probe.beside(complementary, bound, assembly, associative),
+        Some(bound) => probe.beside(complementary, (first, bound), assembly, associative),
         None => complementary(),
     };
     let bound = associative.value.filter(|_| associative.outcome == Outcome::Found);
@@ -341,7 +347,8 @@ fn climb(
     let goal = answer.value.or(associative.value);
     match goal {
         Some(goal) => {
-            if probe.seen.is_empty() {
+            // Not what was asked beside the search.
+            if probe.seen.iter().all(|(lambda, _)| *lambda == 0.0) {
                 probe.climb(on_the_way, goal);
             }
             below(probe, goal, answer.value.is_some());

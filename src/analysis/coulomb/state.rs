@@ -69,9 +69,9 @@ const EASY: usize = 4;
 /// states are lost (2 of 993 with one ε, none with two). More: minutes for states that stay open.
 const HOPELESS: (f64, usize) = (0.1, 2);
 
-/// Curves are followed to no larger ε than this at once, and the next branches off the one before.
-/// Larger: a curve for each ε (a wall of 40 × 40 has four times the factorisations from 1e-5 on).
-/// Smaller: rounding.
+/// Curves are followed at once to an ε no larger than this, where that leads anywhere, and the next
+/// branches off. Larger: a curve for each ε (a wall of 40 × 40 has four times the factorisations from
+/// 1e-5 on). Smaller: rounding.
 const FAR: f64 = 1e-8;
 
 /// A fixed point is none of the law where it is further from it than so many times the one before

@@ -183,11 +183,11 @@ impl Tracker<'_> {
         let place = linkage.place(&poses);
         let at =
             self.at(&linkage, &place, value).ok_or_else(|| stuck("the linkage does not close"))?;
-        // Of several motions at once the one in equilibrium may lie far from where it is.
+        // Of several motions that begin at once the one in equilibrium may lie far from here.
         if self.deepest(&at.place.poses, &closed).is_some_and(|c| c.gap < -tolerance::JOINT_CLOSED)
         {
             return Err(stuck(
-                "several motions begin there at once, and blocks overlap in that which is in equilibrium",
+                "in the pose that is in equilibrium next, blocks overlap: perhaps several motions begin there at once",
             ));
         }
         let margin = self

@@ -110,7 +110,8 @@ impl Exact {
 impl Curve<'_> {
     /// The rates where corners are sharp.
     fn followed(&mut self) -> Option<Vec<f64>> {
-        let (mut place, mut way, mut step) = self.branch().map_or_else(|| self.start(), Some)?;
+        let from = if self.places.is_empty() { self.start() } else { self.branch() };
+        let (mut place, mut way, mut step) = from?;
         while self.law.factors < self.most && place.s < BACK {
             let before = self.law.factors;
             match self.corrected(place.on(&way, step), &way) {
