@@ -6,7 +6,8 @@ use serde_json::{Value, json};
 use std::process::Command;
 use voussoir::{
     analysis::{
-        Answer, Assessment, Control, Law, LimitOptions, Outcome, Proved, Question, assess,
+        Answer, Assessment, Control, Law, LimitOptions, Outcome, Proved, Question, TiltOptions,
+        assess,
         coulomb::{self, Found},
         limit, stability, tilt,
     },
@@ -373,17 +374,54 @@ fn what_rests_little_below_the_bound_has_the_safe_end_for_a_value() {
     }
 }
 
-/// Two courses of 401 blocks slide as one: what is easy is asked to the end, however large.
-#[test]
-fn a_long_wall_slides_at_its_coefficient_of_friction() {
-    let (answer, _) = dry(&scene(&json!({
+/// A wall in its plane, pushed along itself.
+fn pushed_wall(courses: usize, blocks: usize) -> Scene {
+    scene(&json!({
         "format": "voussoir-scene/1",
         "materials": { "stone": { "density": 2400 } },
         "joints": { "default": { "friction": 0.6 } },
-        "templates": [{ "wall": { "size": [1, 0.5, 0.5], "courses": 2, "blocks": 401 } }],
+        "templates": [
+            { "wall": { "size": [1, 0.5, 0.5], "courses": courses, "blocks": blocks } }
+        ],
         "loads": { "live": [{ "weight": [1, 0, 0] }] }
-    })));
+    }))
+}
+
+/// Two courses of 401 blocks slide as one: what is easy is asked to the end, however large.
+#[test]
+fn a_long_wall_slides_at_its_coefficient_of_friction() {
+    let (answer, _) = dry(&pushed_wall(2, 401));
     assert!(answer.is_reached() && (answer.value.unwrap() - 0.6).abs() < 1e-6, "{answer:?}");
+}
+
+/// What is large and not easy has the safe end for a value, no more than a tenth below its bound,
+/// and is not searched further; the dead load may be known or not.
+#[test]
+fn a_large_wall_has_a_value_within_a_tenth_of_its_bound() {
+    let scene = pushed_wall(30, 30);
+    let (answer, bound) = dry(&scene);
+    assert!(answer.found == Found::RestsBelow && answer.solves == 0, "{answer:?}");
+    let value = answer.value.unwrap();
+    assert!(answer.is_reached() && value < bound && value >= 0.9 * bound, "{value} {bound}");
+    let model = ask::model(&scene);
+    let limited = limit(&model, &Control::default());
+    let known = Some(Verdict::Stable);
+    let again = coulomb::load_factor_from(&model, &limited, known, &Control::default());
+    assert_eq!((again.found, again.value), (answer.found, answer.value));
+}
+
+/// A heap that moves on the way to a solution of the law, whether its verdict when level is known or
+/// not.
+#[test]
+fn what_moves_on_the_way_counts_without_the_level_verdict_too() {
+    let scene = cross::scene(99002, 49).unwrap().0;
+    for skip_dead in [false, true] {
+        let toward = vec![[1.0, 0.0, 0.0]];
+        let question = Question::Tilt(TiltOptions { toward, skip_dead, ..TiltOptions::default() });
+        let held = json!(ask::asked(&scene, &question));
+        let value = held["answer"]["tan_tilt"]["value"].as_f64().unwrap();
+        assert!((value - 0.349_35).abs() < 1e-3, "{skip_dead}: {value}");
+    }
 }
 
 /// What a verdict is worth on the way of a growing load.
