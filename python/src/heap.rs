@@ -46,7 +46,7 @@ pub fn heaps(
     let protocol = read.map_err(|e| {
         let error = InputError::at(JsonPath::root().key("protocol"), e.to_string());
         Trouble::from(error.hint(
-            "drain, funnel, cylinder, tilt, drum, hopper or shear, with grain, elongation, corners, grains, diameter, sizes, friction, wall_friction, rolling_arm, restitution, density, size, rate, pressure",
+            "drain, funnel, cylinder, tilt, drum, hopper or shear, with grain, elongation, corners, grains, diameter, sizes, friction, wall_friction, rolling_arm, restitution, density, size, rate, pressure, drop, floor",
         ))
         .raise(py)
     })?;

@@ -41,7 +41,8 @@ const DRUM_TURNS: f64 = 270.0;
 /// A shear box is pushed by this share of its length. More: less than four fifths of the halves lie
 /// over each other. Less: the residual resistance is not reached.
 const SHEARED: f64 = 0.2;
-/// √(d/g) between two layers that are poured: a grain falls 3 d in the meantime.
+/// √(d/g) between two layers that are poured from 3 d, in which a grain falls so far; from elsewhere
+/// by the root of the height. Less: each would begin above one that still falls, higher and higher.
 const POUR: f64 = 2.5;
 /// Rounds in which grains that nothing balances are left out. More: a heap that really falls is
 /// taken apart.
@@ -190,7 +191,9 @@ pub fn grown(
             vec![Disturbance::Settle, Disturbance::Remove(gates)]
         }
         ProtocolKind::Funnel => {
-            vec![Disturbance::Pour(layers.iter().map(|l| find(l)).collect(), POUR * natural)]
+            let layers = layers.iter().map(|l| find(l)).collect();
+            let every = POUR * (protocol.drop / 3.0).sqrt() * natural;
+            vec![Disturbance::Pour(layers, every, protocol.drop * d)]
         }
         ProtocolKind::Cylinder => {
             let height = 3.0 * d * (protocol.grains as f64).cbrt();

@@ -245,7 +245,7 @@ fn protocol(args: &Repose) -> anyhow::Result<Protocol> {
         }
         let Some(place) = value.get_mut(key).filter(|_| key != "kind") else {
             bail!(
-                "{key}: no value of a protocol; there are grain, elongation, corners, grains, diameter, sizes, friction, wall_friction, rolling_arm, rolling_friction, restitution, density, size, rate, pressure"
+                "{key}: no value of a protocol; there are grain, elongation, corners, grains, diameter, sizes, friction, wall_friction, rolling_arm, rolling_friction, restitution, density, size, rate, pressure, drop, floor"
             );
         };
         *place = serde_json::from_str(text).unwrap_or_else(|_| Value::from(text.as_str()));

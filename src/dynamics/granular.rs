@@ -72,8 +72,9 @@ pub enum Disturbance {
     Remove(Vec<usize>),
     /// These blocks rise at this speed, m/s, to this height, m, and are taken away.
     Lift(Vec<usize>, f64, f64),
-    /// These blocks are set free, a group every so many s, each from 3 d above the highest grain.
-    Pour(Vec<Vec<usize>>, f64),
+    /// These blocks are set free, a group every so many s, each from so far above the highest grain,
+    /// m.
+    Pour(Vec<Vec<usize>>, f64, f64),
     /// Gravity turns about this axis at this rate, radians per s, until the grains flow.
     Turn(Unit<Vector3<f64>>, f64),
     /// The supports turn about this axis through the origin at this rate, radians per s, by so many
@@ -356,7 +357,7 @@ impl Flowing<'_> {
         match change {
             Disturbance::Remove(blocks) => blocks.iter().for_each(|&i| self.remove(i)),
             Disturbance::Lift(blocks, ..) => lifted.clone_from(blocks),
-            Disturbance::Pour(groups, _) => {
+            Disturbance::Pour(groups, ..) => {
                 waiting.clone_from(groups);
                 // Far away and without load until their turn comes.
                 for (k, &i) in groups.iter().flatten().enumerate() {
@@ -393,7 +394,7 @@ impl Flowing<'_> {
                     }
                 }
             }
-            if let Disturbance::Pour(_, every) = change
+            if let Disturbance::Pour(_, every, drop) = change
                 && !waiting.is_empty()
                 && time - poured >= *every
             {
@@ -406,7 +407,7 @@ impl Flowing<'_> {
                 for i in waiting.pop().into_iter().flatten() {
                     parked.remove(&i);
                     let base = self.assembly.blocks[i].centroid;
-                    let at = Vector3::new(base.x, base.y, top + 3.0 * self.diameter);
+                    let at = Vector3::new(base.x, base.y, top + drop);
                     self.world.place(i, (at - self.units.origin) / self.units.length);
                     self.world.stop(i);
                 }

@@ -7,6 +7,7 @@ mod vessel;
 use super::{check::Place, grain::Grain, numbered, random::Random};
 use crate::{
     error::InputError,
+    number::short,
     scene::{
         BlockSpec, Friction, GrainKind, JointOverride, JointSpec, Material, Protocol, ProtocolKind,
         Scene,
@@ -101,6 +102,7 @@ fn check(p: &Protocol) -> Result<(), InputError> {
     between("rolling_arm", p.rolling_arm, 1e3)?;
     between("restitution", p.restitution, 1.0)?;
     between("pressure", p.pressure, 1e3)?;
+    between("drop", p.drop, 1e3)?;
     if p.grain == GrainKind::Hull && p.rolling_arm > 0.0 {
         let text = format!("must be 0 for hulls, got {}", p.rolling_arm);
         return Err(place.error(
@@ -182,9 +184,14 @@ fn loose(
     let grains: Vec<Grain> = (0..p.grains).map(|_| Grain::new(p, &mut forms)).collect();
     let reach = grains.iter().map(|g| g.reach).fold(1.0, f64::max);
     let pitch = LOOSE * p.sizes.greatest(d) * reach;
+    if p.kind == ProtocolKind::Funnel && p.drop < pitch {
+        let text = format!("must be at least {}, got {}", short(pitch), p.drop);
+        let hint = "the height above the highest grain, in d, from which the next ones do not begin inside it";
+        return Err(Place::template("repose").error("drop", text, hint));
+    }
     let count = |low: f64, high: f64| (((high - low) / pitch).floor() as usize).max(1);
     let [x0, x1, y0, y1] = vessel.cell;
-    let [nx, ny] = [count(x0, x1), count(y0, y1)];
+    let [mut nx, mut ny] = [count(x0, x1), count(y0, y1)];
     let (mut layers, mut placed, mut level) = (Vec::new(), 0, 0usize);
     while placed < p.grains {
         let z = vessel.base + pitch * (level as f64 + 0.6);
@@ -215,6 +222,14 @@ fn loose(
                 ..BlockSpec::new(id, shape)
             });
             placed += 1;
+        }
+        if layer.is_empty() && vessel.ceiling.is_infinite() {
+            if nx.max(ny) == 1 {
+                return Err(vessel.full(p, placed));
+            }
+            // A coarser grid has its middle in a circle that this one misses.
+            [nx, ny] = [nx, ny].map(|n| (n - 1).max(1));
+            continue;
         }
         layers.push(layer);
         level += 1;

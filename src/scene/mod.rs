@@ -36,7 +36,7 @@ pub use joint::{Friction, JointOverride, JointSpec, Joints, Material};
 pub use load::{At, Load, Loads, OnRoad, PushingMass};
 pub use member::Member;
 pub(crate) use pattern::fits;
-pub use protocol::{GrainKind, Protocol, ProtocolKind};
+pub use protocol::{FloorKind, GrainKind, Protocol, ProtocolKind};
 pub(crate) use read::{read_as, text};
 pub use read::{read_bytes, read_file, read_str};
 pub use schema::schema;

@@ -45,6 +45,21 @@ pub struct Protocol {
     pub rate: Option<f64>,
     /// Pressure of the lid of the shear box, ρ g d.
     pub pressure: f64,
+    /// How far above the highest grain the layers of the funnel are let go, in mean diameters.
+    pub drop: f64,
+    /// What the grains lie on.
+    pub floor: FloorKind,
+}
+
+/// The floor under the grains.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FloorKind {
+    /// Fixed grains at random places.
+    #[default]
+    Rough,
+    /// A plane with the friction of the grains.
+    Flat,
 }
 
 /// The shape of the grains.
@@ -71,14 +86,14 @@ impl GrainKind {
     }
 }
 
-/// What is done with the grains. The floor is rough: fixed grains at random places.
+/// What is done with the grains.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ProtocolKind {
     /// A box is filled, one end wall is taken away; what falls over the edge is discarded.
     #[default]
     Drain,
-    /// Grains are poured in layers onto the middle of a floor, from close above the heap.
+    /// Grains are poured in layers onto the middle of a floor, from above the heap.
     Funnel,
     /// A hollow cylinder is filled and lifted.
     Cylinder,
@@ -129,6 +144,8 @@ impl Default for Protocol {
             size: None,
             rate: None,
             pressure: 10.0,
+            drop: 3.0,
+            floor: FloorKind::Rough,
         }
     }
 }

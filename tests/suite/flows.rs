@@ -98,6 +98,28 @@ fn a_ball_in_free_flight_is_the_same_from_a_turning_drum() {
     }
 }
 
+/// What is poured falls from so far above the highest grain, and not before its turn.
+#[test]
+fn layers_are_poured_from_the_height_of_drop() {
+    let floor = fixed(cuboid("floor", [20.0, 20.0, 1.0], [0.0, 0.0, -1.0]));
+    let scene = scene(0.5, json!([floor, sphere("ball", 0.5, [0.0, 0.0, 0.5])]), json!({}));
+    for drop in [3.0, 12.0] {
+        let course = Course {
+            stages: vec![Disturbance::Pour(vec![vec![1]], 1.0, drop)],
+            diameter: 1.0,
+            settled: false,
+            ..Course::default()
+        };
+        let path = watched(&scene, &course);
+        let falls = path.iter().take_while(|(time, _)| drop - 0.5 * time * time > 1.0);
+        assert!(falls.clone().count() > 3);
+        for (time, there) in falls {
+            let want = drop - 0.5 * time * time;
+            assert!((there.z - want).abs() < 0.02 * drop, "{time}: {} {want}", there.z);
+        }
+    }
+}
+
 /// A ball that falls from h comes back to e² h.
 #[test]
 fn restitution_is_speed_apart_over_speed_together() {

@@ -14,7 +14,9 @@ use voussoir::{
     generate::deposit,
     proof::{ResultFile, packing::PackingFile},
     report::json as text,
-    scene::{GrainKind, Protocol, ProtocolKind, Scene, Sizes, read_str},
+    scene::{
+        BlockSpec, FloorKind, GrainKind, Protocol, ProtocolKind, Scene, Shape, Sizes, read_str,
+    },
 };
 
 fn pile(packing: &str, layers: usize, friction: f64) -> Scene {
@@ -366,6 +368,26 @@ fn nothing_overlaps_before_it_falls() {
     }
 }
 
+/// On a flat floor nothing is fixed, and the loose grains are the same.
+#[test]
+fn a_flat_floor_is_a_plane() {
+    for kind in [ProtocolKind::Drain, ProtocolKind::Funnel, ProtocolKind::Cylinder] {
+        let of = |floor| {
+            let blocks = deposit(&Protocol { floor, ..small(kind) }, 1).unwrap().scene.blocks;
+            let (fixed, loose): (Vec<_>, Vec<_>) = blocks.into_iter().partition(|b| b.support);
+            let is_ball = |b: &&BlockSpec| matches!(b.shape, Shape::Sphere { .. });
+            (
+                fixed.iter().filter(is_ball).count(),
+                fixed.iter().any(|b| b.id == "floor"),
+                loose.len(),
+            )
+        };
+        let ((balls, is_there, loose), flat) = (of(FloorKind::Rough), of(FloorKind::Flat));
+        assert!(balls > 20 && is_there && loose == 40, "{kind:?}");
+        assert_eq!(flat, (0, true, 40), "{kind:?}");
+    }
+}
+
 #[test]
 fn values_out_of_range_are_refused_with_their_place() {
     let bad = |change: fn(&mut Protocol)| {
@@ -379,6 +401,15 @@ fn values_out_of_range_are_refused_with_their_place() {
     assert!(bad(|p| p.sizes = Sizes::Even(1.0)).contains("sizes"));
     assert!(bad(|p| p.friction = -0.1).contains("friction"));
     assert!(bad(|p| p.size = Some([6.0, 0.0])).contains("size[1]"));
+    let coarse = |p: &mut Protocol| {
+        (p.kind, p.sizes, p.drop) = (ProtocolKind::Funnel, Sizes::Even(0.9), 9.0);
+        (p.grain, p.elongation, p.size) = (GrainKind::Clump, 2.0, Some([4.0, 4.0]));
+    };
+    let full = bad(coarse);
+    assert!(full.contains("size: only 0 of 40 grains fit loosely into a circle of 2 d"), "{full}");
+    assert!(bad(|p| p.drop = -1.0).contains("drop"));
+    let low = bad(|p| (p.kind, p.drop) = (ProtocolKind::Funnel, 1.0));
+    assert!(low.contains("drop: must be at least 1.26, got 1"), "{low}");
     assert!(bad(|p| (p.grain, p.elongation) = (GrainKind::Clump, 2.5)).contains("elongation"));
     assert!(bad(|p| (p.grain, p.corners) = (GrainKind::Hull, 3)).contains("corners"));
     assert!(bad(|p| (p.grain, p.rolling_arm) = (GrainKind::Hull, 0.1)).contains("rolling_arm"));

@@ -346,7 +346,7 @@ def heaps(
     values
         ``grains=400``, ``grain="clump"``, ``elongation``, ``corners``, ``diameter`` (m), ``sizes``,
         ``friction``, ``wall_friction``, ``rolling_arm``, ``restitution``, ``density``, ``size``,
-        ``rate``, ``pressure``. A grading curve is ``sizes=[[0.002, 0], [0.004, 0.4], [0.008, 1]]``
+        ``rate``, ``pressure``, ``drop``, ``floor``. A grading curve is ``sizes=[[0.002, 0], [0.004, 0.4], [0.008, 1]]``
         with ``diameter`` the unit of lengths.
     """
     listed = list(range(seeds)) if isinstance(seeds, int) else [int(s) for s in seeds]

@@ -132,11 +132,10 @@ impl Curves {
         if self.is_lost {
             return None;
         }
-        let mut to = |epsilon| Some((epsilon, law.tracked(contacts, epsilon, control.deadline)?));
-        let far = epsilon.min(FAR);
         // What moves may be told at a large ε, and not be followed to a small one.
-        let (reached, solved) =
-            to(far).or_else(|| (far < *epsilon).then(|| to(*epsilon)).flatten()).unzip();
+        let epsilons = [epsilon.min(FAR), *epsilon];
+        let epsilons = if *epsilon > FAR { &epsilons[..] } else { &epsilons[1..] };
+        let (reached, solved) = law.tracked(contacts, epsilons, control.deadline).unzip();
         self.is_followed = solved.is_some();
         self.is_lost = !self.is_followed;
         *epsilon = reached.unwrap_or(*epsilon);
@@ -281,13 +280,9 @@ fn continued(model: &Model, mut contacts: Contacts, control: &Control, least: f6
                     (decided, forces, moved.natural_map_in_loads)
             }
         }
-        hopeless = if history.len() > BEFORE_EXACT
-            && history.last().is_some_and(|s| s.change > HOPELESS.0)
-        {
-            hopeless + 1
-        } else {
-            0
-        };
+        let is_unsettled = history.last().is_some_and(|s| s.change > HOPELESS.0);
+        let was_tried = history.len() > BEFORE_EXACT || curves.is_lost;
+        hopeless = if is_unsettled && was_tried { hopeless + 1 } else { 0 };
         if hopeless == HOPELESS.1
             || (answer.motion == StateMotion::Rests && epsilon <= least)
             || (answer.motion == StateMotion::Moves && exact <= tolerance::NATURAL_MAP)

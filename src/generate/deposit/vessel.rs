@@ -4,7 +4,7 @@
 use super::super::{numbered, random::Random, support};
 use crate::{
     error::InputError,
-    scene::{Ball, BlockSpec, Protocol, ProtocolKind, Rotation, Shape},
+    scene::{Ball, BlockSpec, FloorKind, Protocol, ProtocolKind, Rotation, Shape},
 };
 use std::f64::consts::{PI, TAU};
 
@@ -79,7 +79,10 @@ impl Vessel {
                 let low = [floor[0], floor[2], -0.5 - WALL];
                 let slab = wall(d, "floor".into(), low, [floor[1] - end, floor[3], -0.5]);
                 below.push(BlockSpec { material: Some("grain".into()), ..slab });
-                let spots = rough(floor, APART, random);
+                let spots = match p.floor {
+                    FloorKind::Rough => rough(floor, APART, random),
+                    FloorKind::Flat => Vec::new(),
+                };
                 let fixed = spots.iter().enumerate();
                 below
                     .extend(fixed.map(|(i, at)| {
@@ -130,15 +133,19 @@ impl Vessel {
     /// That not all grains fit in.
     pub fn full(&self, p: &Protocol, placed: usize) -> InputError {
         let place = super::Place::template("repose");
-        let text = format!(
-            "only {placed} of {} grains fit loosely into the drum of {} × {} d",
-            p.grains, self.length, self.width
-        );
-        place.error(
-            "size",
-            text,
-            "take fewer grains, or a larger drum: size=[diameter,length], in d",
-        )
+        let [_, within, ..] = self.cell;
+        let (what, hint) = match p.kind {
+            ProtocolKind::Drum => (
+                format!("the drum of {} × {} d", self.length, self.width),
+                "take fewer grains, or a larger drum: size=[diameter,length], in d",
+            ),
+            _ => (
+                format!("a circle of {} d", 2.0 * within),
+                "take smaller grains, or a larger size, in d",
+            ),
+        };
+        let text = format!("only {placed} of {} grains fit loosely into {what}", p.grains);
+        place.error("size", text, hint)
     }
 
     /// Walls up to `top`, those that are taken away, lifted or pushed, and the lid.

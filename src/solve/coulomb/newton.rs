@@ -270,9 +270,9 @@ mod tests {
             let mut law = Exact::new(contacts).unwrap();
             let still = vec![0.0; contacts.statics.matrix.rows];
             for epsilon in [1e-2, 1e-4] {
-                let (afar, left) = law.tracked(contacts, epsilon, Deadline::NEVER).unwrap();
+                let (_, (afar, left)) = law.tracked(contacts, &[epsilon], Deadline::NEVER).unwrap();
                 assert!(left < 1e-4 * epsilon, "scene {which} {epsilon}: {left}");
-                assert!(law.tracked(contacts, epsilon, Deadline::within(0.0)).is_none());
+                assert!(law.tracked(contacts, &[epsilon], Deadline::within(0.0)).is_none());
                 let Some((near, _)) = law.near(contacts, epsilon, &still, Deadline::NEVER) else {
                     continue;
                 };

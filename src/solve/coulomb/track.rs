@@ -66,6 +66,15 @@ const REMEMBERED: f64 = 0.25;
 /// two are nearly the same. Less: it does not get from one to the other. More: more is followed twice.
 const BRANCH: f64 = 3.0;
 
+/// With more rows than this a curve that was too long to one ε is not begun again to another. More:
+/// half a minute longer for states that stay open. Fewer: a dome that moves is not told (87 rows).
+const AGAIN: usize = 1_000;
+
+/// The drag that falls from this one at the start, where corners are rounded by `e^s`.
+fn drag_at(start: f64, s: f64) -> f64 {
+    start * (FREER * s).exp()
+}
+
 /// A curve as it is followed.
 struct Curve<'a> {
     law: &'a mut Exact,
@@ -75,35 +84,53 @@ struct Curve<'a> {
     end: Deadline,
     /// The number of factorisations at which it is given up.
     most: usize,
+    /// The sharpest corners it came to, as `s`.
+    least: f64,
     /// What is remembered of it.
     places: Vec<Passed>,
 }
 
 impl Exact {
-    /// The state at ε from where blocks touch, and the imbalance it leaves, in the loads that pass
-    /// the blocks; `None` where the curve does not lead there, or not before `end`.
+    /// The state at the first of these ε (ascending) to which a curve leads from where blocks touch,
+    /// with that ε, and the imbalance it leaves, in the loads that pass the blocks; `None` where none
+    /// leads to any of them, or not before `end`. A curve that was lost on the way that all ε have in
+    /// common is not begun again.
     pub fn tracked(
         &mut self,
         contacts: &Contacts,
-        epsilon: f64,
+        epsilons: &[f64],
         end: Deadline,
-    ) -> Option<(Solved, f64)> {
+    ) -> Option<(f64, (Solved, f64))> {
         let rows = contacts.statics.matrix.rows;
         let (large, of_large) = FACTORS_OF_LARGE;
-        let most = (FACTORS[0] + rows).min(if rows > large { of_large } else { FACTORS[1] });
-        let most = self.factors + most;
+        let budget = (FACTORS[0] + rows).min(if rows > large { of_large } else { FACTORS[1] });
         let trunk = std::mem::take(&mut self.trunk);
-        let branch = (!trunk.places.is_empty()).then_some((trunk.drag, trunk.places));
-        let mut tries = branch.into_iter().chain(DRAGS.map(|drag| (drag, Vec::new())));
-        tries.find_map(|(drag, places)| {
-            let law = &mut *self;
-            let mut curve = Curve { law, contacts, epsilon, drag, end, most, places };
-            let sharp = curve.followed()?;
-            let places = std::mem::take(&mut curve.places);
-            let reached = self.near(contacts, epsilon, &sharp, end)?;
-            self.trunk = Trunk { drag, places };
-            Some(reached)
-        })
+        let branch = (!trunk.places.is_empty()).then_some(trunk);
+        let starts = || DRAGS.map(|drag| Trunk { drag, places: Vec::new() });
+        let mut tries: Vec<Trunk> = branch.into_iter().chain(starts()).collect();
+        for &epsilon in epsilons {
+            let most = self.factors + budget;
+            let mut again = Vec::new();
+            for Trunk { drag, places } in tries {
+                let law = &mut *self;
+                let least = f64::INFINITY;
+                let mut curve = Curve { law, contacts, epsilon, drag, end, most, least, places };
+                let sharp = curve.followed();
+                let (least, places) = (curve.least, curve.places);
+                let reached = sharp.and_then(|sharp| self.near(contacts, epsilon, &sharp, end));
+                if let Some(reached) = reached {
+                    self.trunk = Trunk { drag, places };
+                    return Some((epsilon, reached));
+                }
+                let is_apart = drag_at(drag, least) < BRANCH * epsilons[epsilons.len() - 1];
+                let is_long = self.factors >= most && rows > AGAIN;
+                if is_apart && !is_long {
+                    again.push(Trunk { drag, places: Vec::new() });
+                }
+            }
+            tries = again;
+        }
+        None
     }
 }
 
@@ -118,6 +145,7 @@ impl Curve<'_> {
                 Some((next, along_s)) => {
                     way = unit(along_s, Some(&way));
                     place = next;
+                    self.least = self.least.min(place.s);
                     if place.s < SHARP {
                         return Some(place.rates);
                     }
@@ -139,7 +167,7 @@ impl Curve<'_> {
     /// Keeps a place that the curve of a smaller ε has nearly in common with this one.
     fn remember(&mut self, place: &Place, way: &Place, step: f64) {
         let is_further = self.places.last().is_none_or(|last| place.s <= last.place.s - REMEMBERED);
-        if is_further && self.drag * (FREER * place.s).exp() >= BRANCH * self.epsilon {
+        if is_further && drag_at(self.drag, place.s) >= BRANCH * self.epsilon {
             self.places.push(Passed { place: place.clone(), way: way.clone(), step });
         }
     }
@@ -205,7 +233,7 @@ impl Curve<'_> {
     }
 
     fn law(&self, s: f64) -> (f64, FrictionLimits<'static>) {
-        (self.epsilon + self.drag * (FREER * s).exp(), FrictionLimits::Rounded(s.exp()))
+        (self.epsilon + drag_at(self.drag, s), FrictionLimits::Rounded(s.exp()))
     }
 
     fn imbalance(&self, at: &Place) -> Vec<f64> {
