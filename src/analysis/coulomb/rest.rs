@@ -58,7 +58,8 @@ const WITHOUT_END: [f64; 3] = [0.1, 1.0, 10.0];
 /// Most states asked while halving. Fewer: the value is known to fewer digits than
 /// [`tolerance::DRY_CRITICAL_WIDTH`].
 const MOST: usize = 40;
-/// The same for more than [`MANY`] free blocks.
+/// The same for more than [`MANY`] free blocks, and for more than [`FEW`] of which states had to be
+/// sought from afar.
 const MOST_OF_MANY: usize = 8;
 
 /// Most states that stay undecided where none was seen to move: without one there is no value, only
@@ -124,6 +125,11 @@ impl Probe<'_> {
         self.rests().map_or(0.0, |r| r.0)
     }
 
+    /// Whether some of them had to be sought from afar.
+    fn is_dear(&self) -> bool {
+        self.seen.iter().any(|(_, state)| state.from_afar)
+    }
+
     /// Whether nothing more is to be had.
     fn is_hopeless(&self) -> bool {
         self.seen_to(StateMotion::Moves).next().is_none()
@@ -140,17 +146,16 @@ impl Probe<'_> {
         associative: &LoadFactor,
     ) -> DryLoadFactor {
         let states = || self.on_the_way_of_many(first, bound);
-        let are_dear = |seen: &[(f64, State)]| seen.iter().any(|(_, s)| s.from_afar);
         let answer;
         if assembly.free().count() <= MOST_SEARCHED {
             (answer, self.seen) = parallel::both(true, search, states);
         } else {
             self.seen = states();
             let is_near = self.rests_at() >= (1.0 - tolerance::REST_WITHIN) * bound;
-            let is_enough = is_near && are_dear(&self.seen);
+            let is_enough = is_near && self.is_dear();
             answer = if is_enough { DryLoadFactor::unanswered(associative) } else { search() };
         }
-        if are_dear(&self.seen) {
+        if self.is_dear() {
             self.open_width = tolerance::REST_WITHIN;
         }
         answer
@@ -338,11 +343,13 @@ fn climb(
 ) {
     let blocks = assembly.free().count();
     let bound = associative.value.filter(|_| associative.outcome == Outcome::Found);
-    let (most, on_the_way) = match blocks {
-        _ if blocks > MANY => (MOST_OF_MANY, &ON_THE_WAY_OF_MANY[..]),
-        _ if blocks > FEW || answer.found == Found::NothingSlides => (MOST, &ON_THE_WAY[..]),
-        _ => (MOST, &ON_THE_WAY_OF_FEW[..]),
+    let on_the_way = match blocks {
+        _ if blocks > MANY => &ON_THE_WAY_OF_MANY[..],
+        _ if blocks > FEW || answer.found == Found::NothingSlides => &ON_THE_WAY[..],
+        _ => &ON_THE_WAY_OF_FEW[..],
     };
+    // Whether each further state takes seconds.
+    let mut is_slow = blocks > MANY;
     // A value, or where none was found the bound above all values.
     let goal = answer.value.or(associative.value);
     match goal {
@@ -351,8 +358,12 @@ fn climb(
             if probe.seen.iter().all(|(lambda, _)| *lambda == 0.0) {
                 probe.climb(on_the_way, goal);
             }
+            if blocks > FEW && probe.is_dear() {
+                is_slow = true;
+                probe.open_width = tolerance::REST_WITHIN;
+            }
             below(probe, goal, answer.value.is_some());
-            if answer.value.is_some() && blocks <= MANY {
+            if answer.value.is_some() && !is_slow {
                 above(probe, goal, bound.unwrap_or(f64::INFINITY));
             }
         }
@@ -364,9 +375,10 @@ fn climb(
     // Where nothing else is known, the bracket from below is what there is to say.
     let is_known = |probe: &Probe| answer.value.is_some_and(|v| is_reached(probe.rests_at(), v));
     let end = probe.moves().map(|m| m.0).or(goal.filter(|_| !is_known(probe)));
-    if blocks <= MANY {
+    if !is_slow {
         probe.most_open += MOST_OPEN;
     }
+    let most = if is_slow { MOST_OF_MANY } else { MOST };
     let mut narrow = end.is_none_or(|end| probe.halve(end, most));
     // On the way to what came out of halving it is asked once more, until no motion refutes it.
     while let Some(moves) =
