@@ -65,8 +65,9 @@ const BEFORE_EXACT: usize = 2;
 const EASY: usize = 4;
 
 /// Friction limits that change by more than this, in the loads that pass there, at so many ε one
-/// after the other, the law itself having been tried, do not settle at smaller ones. Less or fewer:
-/// states are lost (2 of 993 with one ε, none with two). More: minutes for states that stay open.
+/// after the other, the law itself having been tried or its curve lost, do not settle at smaller
+/// ones. Less or fewer: states are lost (2 of 993 with one ε, none with two; one of 500 where one was
+/// enough after a lost curve). More: minutes for states that stay open.
 const HOPELESS: (f64, usize) = (0.1, 2);
 
 /// Curves are followed at once to an ε no larger than this, where that leads anywhere, and the next

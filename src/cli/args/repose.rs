@@ -25,7 +25,8 @@ pub struct Repose {
     /// diameter=0.01 (of spheres of the same volume) sizes=0.2 (or a file: diameter in m and share
     /// finer) friction=0.5 wall_friction=0 rolling_arm=0 (in d; rolling_friction in R)
     /// restitution=0 density=2500 rate=0.1 (drum 1, shear 0.05) pressure=10 (of the lid of shear, ρ
-    /// g d) drop=3 (of the funnel, in d above the heap) floor=rough (or flat) size=[16,10] (in d; where not given it follows the cube root of the number of grains).
+    /// g d) drop=3 (of the funnel, in d above the heap) floor=rough (or flat) size=[16,10] (in d;
+    /// where not given it follows the cube root of the number of grains).
     #[arg(value_name = "KEY=VALUE", value_parser = assignment)]
     pub set: Vec<(String, String)>,
     /// `stability`: the greatest tilt of the packing SCENE as it lies; `repose`: the slope that a

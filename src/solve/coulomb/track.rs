@@ -67,7 +67,8 @@ const REMEMBERED: f64 = 0.25;
 const BRANCH: f64 = 3.0;
 
 /// With more rows than this a curve that was too long to one ε is not begun again to another. More:
-/// half a minute longer for states that stay open. Fewer: a dome that moves is not told (87 rows).
+/// half a minute longer for states that stay open (Armadillo Vault). Fewer: small domes that move are
+/// not told, and cost little.
 const AGAIN: usize = 1_000;
 
 /// The drag that falls from this one at the start, where corners are rounded by `e^s`.
