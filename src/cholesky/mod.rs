@@ -13,9 +13,12 @@ use faer::{
     perm::PermRef,
     sparse::{
         SparseColMatRef, SymbolicSparseColMatRef,
-        linalg::cholesky::{
-            CholeskySymbolicParams, LltRef, SymbolicCholesky, SymbolicCholeskyRaw,
-            SymmetricOrdering, factorize_symbolic_cholesky,
+        linalg::{
+            SupernodalThreshold,
+            cholesky::{
+                CholeskySymbolicParams, LltRef, SymbolicCholesky, SymbolicCholeskyRaw,
+                SymmetricOrdering, factorize_symbolic_cholesky,
+            },
         },
     },
 };
@@ -41,6 +44,11 @@ impl Pattern {
 /// Rows from which nested dissection is tried beside approximate minimum degree. Fewer: time for
 /// what is factored in less. More: heaps in space take twice as long.
 const LARGE: usize = 6_000;
+
+/// Operations an entry of the factor, in units of 40, from which it is factored in blocks of columns.
+/// More: vaults of 400 blocks take a third longer to factor column by column. Fewer: blocks of one
+/// column.
+const IN_BLOCKS: f64 = 0.2;
 
 /// Factors of matrices of one pattern: the ordering, of approximate minimum degree and nested
 /// dissection (G. Karypis and V. Kumar 1998) the one with the smaller factor, is found once. The same matrix always has the same factors.
@@ -84,7 +92,10 @@ impl Cholesky {
         let entries =
             SymbolicSparseColMatRef::new_checked(n, n, &pattern.starts, None, &pattern.rows);
         let by = |ordering| {
-            let parameters = CholeskySymbolicParams::default();
+            let parameters = CholeskySymbolicParams {
+                supernodal_flop_ratio_threshold: SupernodalThreshold(IN_BLOCKS),
+                ..Default::default()
+            };
             factorize_symbolic_cholesky(entries, Side::Lower, ordering, parameters).ok()
         };
         let mut symbolic = by(SymmetricOrdering::Amd)?;

@@ -12,7 +12,7 @@
 use super::{
     answer::DryLoadFactor,
     distance::slides_nowhere,
-    state::{State, state},
+    state::{State, within},
 };
 use crate::{
     analysis::{Control, LoadFactor, Outcome},
@@ -62,14 +62,22 @@ const WITHOUT_END: [f64; 3] = [0.1, 1.0, 10.0];
 /// Most states asked while halving. Fewer: the value is known to fewer digits than
 /// [`tolerance::DRY_CRITICAL_WIDTH`].
 const MOST: usize = 40;
-/// The same for more than [`MANY`] free blocks, and for more than [`FEW`] of which states had to be
-/// sought from afar.
-const MOST_OF_MANY: usize = 8;
+/// Most pairs of states of slow scenes.
+const MOST_OF_SLOW: usize = 5;
 
 /// Most states that stay undecided where none was seen to move: without one there is no value, only
 /// how far it was seen at rest. While halving so many more, but for more than [`MANY`] free blocks.
 /// More: minutes, for these states take longest. Fewer: it is seen at rest less far.
 const MOST_OPEN: usize = 4;
+
+/// Where states are slow and had to be sought from afar, one is given up that is so many times the
+/// work of the dearest that came out. Less: states are given up that would move (a dome of 145
+/// blocks; its value is the same). More: a minute there for three next to where it moves.
+const DEARER: usize = 2;
+
+/// Steps up from a state at rest in slow scenes, where nothing was seen to move: two are asked at a
+/// time. Longer: farther from the limit. Shorter: more of them.
+const STEP_UP: f64 = 1.0 + tolerance::REST_WITHIN;
 
 /// So many states on the way are asked at a time. More: those above one that moves are asked in
 /// vain. Fewer: threads wait.
@@ -83,6 +91,9 @@ struct Probe<'a> {
     seen: Vec<(f64, State)>,
     /// Most of them that stay undecided.
     most_open: usize,
+    /// Whether each further state takes seconds: more than [`MANY`] free blocks, or more than [`FEW`]
+    /// of which states had to be sought from afar.
+    is_slow: bool,
     /// How narrow what lies between rest and the rest has to be where nothing moves.
     open_width: f64,
 }
@@ -93,7 +104,7 @@ impl Probe<'_> {
         if self.control.deadline.is_over() {
             return None;
         }
-        Some((lambda, state(&(self.at)(lambda), self.control)))
+        Some((lambda, within(&(self.at)(lambda), self.control, self.work())))
     }
 
     /// What the state does at a load factor, which is asked once; nothing where the time is over.
@@ -129,6 +140,13 @@ impl Probe<'_> {
         self.rests().map_or(0.0, |r| r.0)
     }
 
+    /// How much work the next state may be: some more than the dearest that came out from afar.
+    fn work(&self) -> usize {
+        let told = |s: &&(f64, State)| s.1.from_afar && s.1.motion != StateMotion::Undecided;
+        let dearest = self.seen.iter().filter(told).map(|s| s.1.work).max();
+        dearest.filter(|_| self.is_slow).map_or(usize::MAX, |work| DEARER * work)
+    }
+
     /// Whether some of them had to be sought from afar.
     fn is_dear(&self) -> bool {
         self.seen.iter().any(|(_, state)| state.from_afar)
@@ -149,7 +167,9 @@ impl Probe<'_> {
         assembly: &Assembly,
         associative: &LoadFactor,
     ) -> DryLoadFactor {
-        let states = || self.on_the_way_of_many(first, bound);
+        let shares = first.into_iter().chain(ON_THE_WAY_OF_MANY);
+        let at: Vec<f64> = shares.map(|share| share * bound).collect();
+        let states = || self.states(&at);
         let answer;
         if assembly.free().count() <= MOST_SEARCHED {
             (answer, self.seen) = parallel::both(true, search, states);
@@ -165,29 +185,27 @@ impl Probe<'_> {
         answer
     }
 
-    /// The states on the way to a bound, one after the other, until one does not rest.
-    fn on_the_way_of_many(&self, first: Option<f64>, bound: f64) -> Vec<(f64, State)> {
-        let mut seen = Vec::new();
-        for share in first.into_iter().chain(ON_THE_WAY_OF_MANY) {
-            let Some(state) = self.state(share * bound) else { break };
-            let rests = state.1.motion == StateMotion::Rests;
-            seen.push(state);
-            if !rests {
-                break;
-            }
-        }
-        seen
+    /// The states at these load factors, all at once, as far as there was time.
+    fn states(&self, at: &[f64]) -> Vec<(f64, State)> {
+        let one = |lambda: &f64| self.state(*lambda);
+        let states = parallel::map(0, at, one).unwrap_or_else(|_| at.iter().map(one).collect());
+        states.into_iter().flatten().collect()
+    }
+
+    /// Asks at these load factors; false where the time is over before.
+    fn ask_all(&mut self, at: &[f64]) -> bool {
+        let states = self.states(at);
+        let in_time = states.len() == at.len();
+        self.seen.extend(states);
+        in_time
     }
 
     /// Asks at these shares of a load factor, some at a time on all threads, until one moves or
     /// nothing more is to be had; false where the time is over before.
     fn climb(&mut self, shares: &[f64], of: f64) -> bool {
         for some in shares.chunks(AT_A_TIME) {
-            let one = |share: &f64| self.state(share * of);
-            let states =
-                parallel::map(0, some, one).unwrap_or_else(|_| some.iter().map(one).collect());
-            let in_time = states.iter().all(Option::is_some);
-            self.seen.extend(states.into_iter().flatten());
+            let at: Vec<f64> = some.iter().map(|share| share * of).collect();
+            let in_time = self.ask_all(&at);
             if self.moves().is_some_and(|m| m.0 <= of) || self.is_hopeless() {
                 break;
             }
@@ -198,31 +216,32 @@ impl Probe<'_> {
         true
     }
 
-    /// Narrows what lies between rest and the rest by halving; false where the time is over before.
-    /// Without a state that moves there is no value, and no more digits are sought than a value may
-    /// be off.
-    fn halve(&mut self, above: f64, most: usize) -> bool {
-        let rests = self.rests_at();
-        let mut above = self
-            .seen_to(StateMotion::Undecided)
-            .map(|s| s.0)
-            .filter(|open| *open > rests)
-            .fold(above, f64::min);
-        for _ in 0..most {
+    /// Narrows what lies between rest and the rest, by halving, or where each state is slow by two
+    /// at a time; false where the time is over before. Without a state that moves there is no value,
+    /// and no more digits are sought than a value may be off.
+    fn narrow(&mut self, end: f64) -> bool {
+        for _ in 0..if self.is_slow { MOST_OF_SLOW } else { MOST } {
             let width = if self.moves().is_some() {
                 tolerance::DRY_CRITICAL_WIDTH
             } else {
                 self.open_width
             };
             let rests = self.rests_at();
+            let not_at_rest = self.seen.iter().filter(|s| s.1.motion != StateMotion::Rests);
+            let above = not_at_rest.map(|s| s.0).filter(|at| *at > rests).fold(end, f64::min);
             if self.is_hopeless() || above - rests <= width * above.abs() {
                 break;
             }
-            let middle = 0.5 * (rests + above);
-            match self.ask(middle) {
-                Some(StateMotion::Rests) => {}
-                Some(_) => above = middle,
-                None => return false,
+            let at = match (self.is_slow, self.moves()) {
+                (true, None) if rests > 0.0 => {
+                    let up = [STEP_UP * rests, STEP_UP * STEP_UP * rests];
+                    up.into_iter().filter(|at| *at < above).collect()
+                }
+                (true, _) => vec![rests + (above - rests) / 3.0, above - (above - rests) / 3.0],
+                (false, _) => vec![0.5 * (rests + above)],
+            };
+            if !self.ask_all(&at) {
+                return false;
             }
         }
         true
@@ -246,6 +265,7 @@ pub(in crate::analysis) fn up_to_rest(
         control,
         seen: Vec::new(),
         most_open: MOST_OPEN,
+        is_slow: is_large,
         open_width: tolerance::REST_BELOW,
     };
     let towards = associative.found().filter(|&bound| {
@@ -353,8 +373,6 @@ fn climb(
         _ if blocks > FEW || answer.found == Found::NothingSlides => &ON_THE_WAY[..],
         _ => &ON_THE_WAY_OF_FEW[..],
     };
-    // Whether each further state takes seconds.
-    let mut is_slow = blocks > MANY;
     // A value, or where none was found the bound above all values.
     let goal = answer.value.or(associative.value);
     match goal {
@@ -364,11 +382,11 @@ fn climb(
                 probe.climb(on_the_way, goal);
             }
             if blocks > FEW && probe.is_dear() {
-                is_slow = true;
+                probe.is_slow = true;
                 probe.open_width = tolerance::REST_WITHIN;
             }
             below(probe, goal, answer.value.is_some());
-            if answer.value.is_some() && !is_slow {
+            if answer.value.is_some() && !probe.is_slow {
                 above(probe, goal, bound.unwrap_or(f64::INFINITY));
             }
         }
@@ -380,11 +398,10 @@ fn climb(
     // Where nothing else is known, the bracket from below is what there is to say.
     let is_known = |probe: &Probe| answer.value.is_some_and(|v| is_reached(probe.rests_at(), v));
     let end = probe.moves().map(|m| m.0).or(goal.filter(|_| !is_known(probe)));
-    if !is_slow {
+    if !probe.is_slow {
         probe.most_open += MOST_OPEN;
     }
-    let most = if is_slow { MOST_OF_MANY } else { MOST };
-    let mut narrow = end.is_none_or(|end| probe.halve(end, most));
+    let mut narrow = end.is_none_or(|end| probe.narrow(end));
     // On the way to what came out of halving it is asked once more, until no motion refutes it.
     while let Some(moves) =
         probe.moves().map(|m| m.0).filter(|_| narrow && on_the_way.len() == ON_THE_WAY_OF_FEW.len())
@@ -392,7 +409,7 @@ fn climb(
         let value = probe.rests_at();
         narrow = probe.climb(on_the_way, value);
         match probe.moves() {
-            Some((lower, _)) if *lower < moves => narrow = probe.halve(*lower, most),
+            Some((lower, _)) if *lower < moves => narrow = probe.narrow(*lower),
             _ => break,
         }
     }

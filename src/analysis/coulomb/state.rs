@@ -11,6 +11,7 @@
 use super::crushing::within_strength;
 use crate::{
     analysis::attempt::Control,
+    deadline::Deadline,
     interface::Model,
     program::{
         StaticsOptions,
@@ -40,6 +41,8 @@ pub struct State {
     pub forces: Forces,
     /// Whether it had to be sought from afar, along a curve of rounded laws: the dearest way.
     pub from_afar: bool,
+    /// What it took: rows of all matrices that were factored.
+    pub work: usize,
 }
 
 /// The ε of the continuation. Fewer: long chains of joints, an arch of 10,000 slices, still bend
@@ -69,6 +72,9 @@ const EASY: usize = 4;
 /// ones. Less or fewer: states are lost (2 of 993 with one ε, none with two; one of 500 where one was
 /// enough after a lost curve). More: minutes for states that stay open.
 const HOPELESS: (f64, usize) = (0.1, 2);
+/// With more rows than this one such ε is enough after a lost curve. Fewer: see there. More: a quarter
+/// longer for each state of the Armadillo Vault that stays open.
+const HOPELESS_AT_ONCE: usize = 1_000;
 
 /// Curves are followed at once to an ε no larger than this, where that leads anywhere, and the next
 /// branches off. Larger: a curve for each ε (a wall of 40 × 40 has four times the factorisations from
@@ -91,23 +97,34 @@ const STOP: StoppingCriterion = StoppingCriterion { change: 1e-5, solves: 25 };
 /// Computes the state; of a symmetric scene from one part of it, and where that leaves it open from
 /// the whole.
 pub fn state(model: &Model, control: &Control) -> State {
-    refined(model, control, f64::INFINITY)
+    continued(model, control, (f64::INFINITY, usize::MAX))
+}
+
+/// The same with no more than about so much [`State::work`] before anything came out.
+pub fn within(model: &Model, control: &Control, work: usize) -> State {
+    continued(model, control, (f64::INFINITY, work))
 }
 
 /// The same, followed on where it rests down to this ε: contacts then yield as springs beside which
 /// nothing else does.
 pub fn refined(model: &Model, control: &Control, epsilon: f64) -> State {
+    continued(model, control, (epsilon, usize::MAX))
+}
+
+/// The continuation in ε down to the `least`, with no more work than `most`.
+fn continued(model: &Model, control: &Control, (least, most): (f64, usize)) -> State {
     let options =
         StaticsOptions { keep_all: control.keep_all, symmetry: true, ..StaticsOptions::default() };
     let contacts = Contacts::new(model, options);
     let is_part = contacts.statics.is_part();
-    let part = continued(model, contacts, control, epsilon);
+    let part = of_part(model, contacts, control, (least, most));
     if part.motion != StateMotion::Undecided || !is_part {
         return part;
     }
     let whole = Contacts::new(model, StaticsOptions { symmetry: false, ..options });
-    let mut answer = continued(model, whole, control, epsilon);
+    let mut answer = of_part(model, whole, control, (least, most.saturating_sub(part.work)));
     answer.steps.splice(0..0, part.steps);
+    answer.work += part.work;
     answer.from_afar |= part.from_afar;
     answer
 }
@@ -128,7 +145,7 @@ impl Curves {
         law: &mut Exact,
         contacts: &Contacts,
         epsilon: &mut f64,
-        control: &Control,
+        (most, end): (usize, Deadline),
     ) -> Option<(Solved, f64)> {
         if self.is_lost {
             return None;
@@ -136,7 +153,7 @@ impl Curves {
         // What moves may be told at a large ε, and not be followed to a small one.
         let epsilons = [epsilon.min(FAR), *epsilon];
         let epsilons = if *epsilon > FAR { &epsilons[..] } else { &epsilons[1..] };
-        let (reached, solved) = law.tracked(contacts, epsilons, control.deadline).unzip();
+        let (reached, solved) = law.tracked(contacts, epsilons, most, end).unzip();
         self.is_followed = solved.is_some();
         self.is_lost = !self.is_followed;
         *epsilon = reached.unwrap_or(*epsilon);
@@ -144,8 +161,13 @@ impl Curves {
     }
 }
 
-/// The continuation in ε.
-fn continued(model: &Model, mut contacts: Contacts, control: &Control, least: f64) -> State {
+/// The same of a part or of the whole.
+fn of_part(
+    model: &Model,
+    mut contacts: Contacts,
+    control: &Control,
+    (least, most): (f64, usize),
+) -> State {
     let interfaces = &model.interfaces;
     let settings = Settings { tolerance: 1e-10, deadline: control.deadline, ..Settings::default() };
     let mut answer = State {
@@ -153,6 +175,7 @@ fn continued(model: &Model, mut contacts: Contacts, control: &Control, least: f6
         steps: Vec::new(),
         forces: Vec::new(),
         from_afar: false,
+        work: 0,
     };
     let still = vec![0.0; contacts.discs().count()];
     let once = StoppingCriterion { solves: 1, ..STOP };
@@ -163,7 +186,8 @@ fn continued(model: &Model, mut contacts: Contacts, control: &Control, least: f6
     let mut history: Vec<Seen> = Vec::new();
     let mut trail: Vec<(f64, Vec<f64>)> = Vec::new();
     let (mut hopeless, mut astray, mut curves) = (0, 0, Curves::default());
-    let rest = vec![0.0; contacts.statics.matrix.rows];
+    let rows = contacts.statics.matrix.rows;
+    let rest = vec![0.0; rows];
     // The associative state is the first guess of the friction limits.
     let solvers =
         Solvers { newton: newton.as_mut().map(|n| (n, &rest[..])), law: None, settings: &settings };
@@ -176,8 +200,17 @@ fn continued(model: &Model, mut contacts: Contacts, control: &Control, least: f6
         solvers,
     );
     let mut reached = f64::INFINITY;
+    let work = |newton: &Option<Newton>, exact: &Option<Option<Exact>>| {
+        let exact = exact.as_ref().and_then(Option::as_ref);
+        rows * (newton.as_ref().map_or(0, |n| n.factors) + exact.map_or(0, |e| e.factors))
+    };
     while let Some(mut epsilon) = EPSILONS.into_iter().find(|&epsilon| epsilon < reached) {
-        let Some(from) = last.take().filter(|_| !control.deadline.is_over()) else { break };
+        let left = most.saturating_sub(work(&newton, &exactly)) / rows;
+        let is_spent = left == 0 && answer.motion == StateMotion::Undecided;
+        let Some(from) = last.take().filter(|_| !is_spent && !control.deadline.is_over()) else {
+            break;
+        };
+        let end = (left, control.deadline);
         let start = Instant::now();
         let sections = contacts.statics.sections.clone();
         let tolerance =
@@ -193,11 +226,11 @@ fn continued(model: &Model, mut contacts: Contacts, control: &Control, least: f6
             .filter(|_| from.solves == 0 || from.solves > EASY)
             .and_then(|e| {
                 let branch = std::mem::take(&mut curves.is_followed)
-                    .then(|| curves.follow(e, &contacts, &mut epsilon, control))
+                    .then(|| curves.follow(e, &contacts, &mut epsilon, end))
                     .flatten();
                 branch
                     .or_else(|| e.on(&contacts, &mut trail, epsilon, control.deadline))
-                    .or_else(|| curves.follow(e, &contacts, &mut epsilon, control))
+                    .or_else(|| curves.follow(e, &contacts, &mut epsilon, end))
             })
             .map(|solved| by_the_law(&contacts, solved, 0));
         let is_followed = followed.is_some();
@@ -223,9 +256,7 @@ fn continued(model: &Model, mut contacts: Contacts, control: &Control, least: f6
             && let Some(solver) = exactly.as_mut().and_then(Option::as_mut)
             && let Some(solved) =
                 solver.near(&contacts, epsilon, &point.rates, control.deadline).or_else(|| {
-                    is_lost
-                        .then(|| curves.follow(solver, &contacts, &mut epsilon, control))
-                        .flatten()
+                    is_lost.then(|| curves.follow(solver, &contacts, &mut epsilon, end)).flatten()
                 })
         {
             point = by_the_law(&contacts, solved, point.solves);
@@ -284,13 +315,15 @@ fn continued(model: &Model, mut contacts: Contacts, control: &Control, least: f6
         let is_unsettled = history.last().is_some_and(|s| s.change > HOPELESS.0);
         let was_tried = history.len() > BEFORE_EXACT || curves.is_lost;
         hopeless = if is_unsettled && was_tried { hopeless + 1 } else { 0 };
-        if hopeless == HOPELESS.1
+        let is_dear = curves.is_lost && rows > HOPELESS_AT_ONCE;
+        if hopeless == if is_dear { 1 } else { HOPELESS.1 }
             || (answer.motion == StateMotion::Rests && epsilon <= least)
             || (answer.motion == StateMotion::Moves && exact <= tolerance::NATURAL_MAP)
         {
             break;
         }
     }
+    answer.work = work(&newton, &exactly);
     answer
 }
 

@@ -53,7 +53,7 @@ pub struct Exact {
     lu: Lu,
     carried: Vec<f64>,
     /// How many matrices it has factored.
-    pub(super) factors: usize,
+    pub factors: usize,
     /// What the next curve of rounded laws has in common with the last one.
     pub(super) trunk: Trunk,
 }
@@ -139,8 +139,7 @@ impl Exact {
         rates: &[f64],
         mut sides: Vec<f64>,
     ) -> Option<Vec<f64>> {
-        let [lower, upper] = [false, true]
-            .map(|mirrored| self.response.derivative(contacts, resists, law, rates, mirrored));
+        let [lower, upper] = self.response.derivatives(contacts, resists, law, rates);
         self.factors += 1;
         self.lu.solve(&lower, &upper, &mut sides).then_some(sides)
     }

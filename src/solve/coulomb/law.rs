@@ -179,8 +179,7 @@ impl Law {
         way: f64,
         spring: f64,
     ) -> Option<(Vec<f64>, f64)> {
-        let lower = self.response.derivative(contacts, spring, FrictionLimits::Law, z, false);
-        let upper = self.response.derivative(contacts, spring, FrictionLimits::Law, z, true);
+        let [lower, upper] = self.response.derivatives(contacts, spring, FrictionLimits::Law, z);
         let mut both: Vec<f64> =
             imbalance.iter().map(|g| -g).chain(self.live.iter().copied()).collect();
         if !self.lu.solve(&lower, &upper, &mut both) {

@@ -49,6 +49,8 @@ pub struct Newton {
     cholesky: Cholesky,
     /// What the imbalance of each row is measured by: a heavy block makes no room for a light one.
     carried: Vec<f64>,
+    /// How many matrices it has factored.
+    pub factors: usize,
 }
 
 /// One solution.
@@ -66,7 +68,7 @@ impl Newton {
         let response = Response::new(contacts)?;
         let (starts, rows) = response.pattern();
         let cholesky = Cholesky::new(Pattern { starts: starts.to_vec(), rows: rows.to_vec() })?;
-        Some(Self { response, cholesky, carried: contacts.carried() })
+        Some(Self { response, cholesky, carried: contacts.carried(), factors: 0 })
     }
 
     /// Solves one program from the rates `start`; `None` where it does not get there, or not before
@@ -96,9 +98,10 @@ impl Newton {
             if !size.is_finite() || end.is_over() {
                 return None;
             }
+            self.factors += 1;
             if !self
                 .cholesky
-                .factorize(&self.response.derivative(contacts, epsilon, friction, &rates, false))
+                .factorize(&self.response.derivative(contacts, epsilon, friction, &rates))
             {
                 return None;
             }
@@ -205,8 +208,7 @@ mod tests {
                     let q: Vec<f64> = q.iter().zip(&step).map(|(q, s)| q + sign * s).collect();
                     response.forces(contacts, 1e-3, friction, &q).1
                 };
-                let [lower, upper] = [false, true]
-                    .map(|mirrored| response.derivative(contacts, 1e-3, friction, &q, mirrored));
+                let [lower, upper] = response.derivatives(contacts, 1e-3, friction, &q);
                 let mut predicted = vec![0.0; n];
                 for column in 0..n {
                     for at in starts[column]..starts[column + 1] {
@@ -270,9 +272,12 @@ mod tests {
             let mut law = Exact::new(contacts).unwrap();
             let still = vec![0.0; contacts.statics.matrix.rows];
             for epsilon in [1e-2, 1e-4] {
-                let (_, (afar, left)) = law.tracked(contacts, &[epsilon], Deadline::NEVER).unwrap();
+                let (_, (afar, left)) =
+                    law.tracked(contacts, &[epsilon], usize::MAX, Deadline::NEVER).unwrap();
                 assert!(left < 1e-4 * epsilon, "scene {which} {epsilon}: {left}");
-                assert!(law.tracked(contacts, &[epsilon], Deadline::within(0.0)).is_none());
+                assert!(
+                    law.tracked(contacts, &[epsilon], usize::MAX, Deadline::within(0.0)).is_none()
+                );
                 let Some((near, _)) = law.near(contacts, epsilon, &still, Deadline::NEVER) else {
                     continue;
                 };

@@ -95,22 +95,24 @@ impl Exact {
     /// The state at the first of these ε (ascending) to which a curve leads from where blocks touch,
     /// with that ε, and the imbalance it leaves, in the loads that pass the blocks; `None` where none
     /// leads to any of them, or not before `end`. A curve that was lost on the way that all ε have in
-    /// common is not begun again.
+    /// common is not begun again. No more than `most` matrices are factored in all.
     pub fn tracked(
         &mut self,
         contacts: &Contacts,
         epsilons: &[f64],
+        most: usize,
         end: Deadline,
     ) -> Option<(f64, (Solved, f64))> {
         let rows = contacts.statics.matrix.rows;
         let (large, of_large) = FACTORS_OF_LARGE;
         let budget = (FACTORS[0] + rows).min(if rows > large { of_large } else { FACTORS[1] });
+        let all = self.factors.saturating_add(most);
         let trunk = std::mem::take(&mut self.trunk);
         let branch = (!trunk.places.is_empty()).then_some(trunk);
         let starts = || DRAGS.map(|drag| Trunk { drag, places: Vec::new() });
         let mut tries: Vec<Trunk> = branch.into_iter().chain(starts()).collect();
         for &epsilon in epsilons {
-            let most = self.factors + budget;
+            let most = all.min(self.factors + budget);
             let mut again = Vec::new();
             for Trunk { drag, places } in tries {
                 let law = &mut *self;
