@@ -46,8 +46,8 @@ impl Pattern {
 const LARGE: usize = 6_000;
 
 /// Operations an entry of the factor, in units of 40, from which it is factored in blocks of columns.
-/// More: vaults of 400 blocks take a third longer to factor column by column. Fewer: blocks of one
-/// column.
+/// More: vaults of 400 blocks are factored column by column (17.9 s a state in place of 15.5). Fewer:
+/// no gain.
 const IN_BLOCKS: f64 = 0.2;
 
 /// Factors of matrices of one pattern: the ordering, of approximate minimum degree and nested

@@ -436,3 +436,27 @@ fn decide(history: &[Seen], epsilon: f64, point: &FixedPoint, moved: &Released) 
         StateMotion::Undecided
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{interface::prepare, scene::read_str};
+
+    /// A cube on a slope of 45° slides; asked with no work allowed it stays open, with as much as it
+    /// took it comes out.
+    #[test]
+    fn what_takes_more_work_than_is_allowed_is_given_up() {
+        let text = r#"{ "format": "voussoir-scene/1", "joints": { "default": { "friction": 0.5 } },
+            "gravity": [6.9, 0, -6.9], "blocks": [
+            { "id": "base", "support": true, "at": [0, 0, -0.5], "shape": { "box": { "size": [9, 9, 1] } } },
+            { "id": "a", "at": [0, 0, 0.5], "shape": { "box": { "size": [2, 2, 1] } } } ] }"#;
+        let model = prepare(&read_str("slope", text).unwrap().0).unwrap();
+        let control = Control::default();
+        let whole = state(&model, &control);
+        assert_eq!(whole.motion, StateMotion::Moves);
+        assert!(whole.work > 0);
+        let none = within(&model, &control, 0);
+        assert_eq!((none.motion, none.steps.len()), (StateMotion::Undecided, 0));
+        assert_eq!(within(&model, &control, whole.work).motion, StateMotion::Moves);
+    }
+}
