@@ -63,7 +63,7 @@ pub(super) struct Rung {
 const LARGE: usize = 4000;
 
 /// Whether a program is large.
-pub(super) fn is_large(statics: &Statics) -> bool {
+pub(in crate::analysis) fn is_large(statics: &Statics) -> bool {
     statics.matrix.columns >= LARGE
 }
 

@@ -1,11 +1,14 @@
 //! Sparse Cholesky factorisation of symmetric positive definite matrices of one pattern; with
-//! `lu.rs` the adapter to faer.
+//! `solve/lu` the adapter to faer.
 
 mod dissection;
 mod fronts;
 mod substitution;
+mod tree;
 
-pub use dissection::dissected;
+pub use tree::Tree;
+
+use dissection::dissected;
 use faer::{
     Conj, MatMut, Par, Side,
     dyn_stack::{MemBuffer, MemStack, StackReq},
@@ -22,7 +25,6 @@ use faer::{
         },
     },
 };
-use fronts::Fronts;
 use substitution::Substitution;
 
 /// The pattern of the lower triangle of a symmetric matrix, column by column.
@@ -49,6 +51,8 @@ const LARGE: usize = 6_000;
 /// More: vaults of 400 blocks are factored column by column (17.9 s a state in place of 15.5). Fewer:
 /// no gain.
 const IN_BLOCKS: f64 = 0.2;
+/// The same where it is always.
+const IN_FRONTS: f64 = -1.0;
 
 /// Factors of matrices of one pattern: the ordering, of approximate minimum degree and nested
 /// dissection (G. Karypis and V. Kumar 1998) the one with the smaller factor, is found once. The same matrix always has the same factors.
@@ -59,7 +63,7 @@ pub struct Cholesky {
     work: MemBuffer,
     threads: Par,
     /// Where it is large.
-    fronts: Option<(Fronts, Substitution)>,
+    fronts: Option<(Tree, Substitution)>,
 }
 
 /// How many threads factor a matrix of so many rows. Subtrees and parts of products are shared out,
@@ -72,37 +76,66 @@ fn threads(rows: usize) -> Par {
     if rows < LARGE { Par::Seq } else { all }
 }
 
+/// What is known of a factor before there are numbers; `None` where the pattern is none, or the factor
+/// does not fit into memory.
+fn analysed(
+    pattern: &Pattern,
+    ordering: SymmetricOrdering<'_, usize>,
+    in_blocks: f64,
+) -> Option<SymbolicCholesky<usize>> {
+    let n = pattern.size();
+    let ascending = |k: usize| {
+        let column = pattern.rows.get(pattern.starts[k]..pattern.starts[k + 1])?;
+        Some(column.windows(2).all(|w| w[0] < w[1]) && column.iter().all(|&i| (k..n).contains(&i)))
+    };
+    if n == 0
+        || pattern.starts[n] != pattern.rows.len()
+        || !(0..n).all(|k| ascending(k) == Some(true))
+    {
+        return None;
+    }
+    let entries = SymbolicSparseColMatRef::new_checked(n, n, &pattern.starts, None, &pattern.rows);
+    let parameters = CholeskySymbolicParams {
+        supernodal_flop_ratio_threshold: SupernodalThreshold(in_blocks),
+        ..Default::default()
+    };
+    factorize_symbolic_cholesky(entries, Side::Lower, ordering, parameters).ok()
+}
+
+/// The same in the order of nested dissection.
+fn analysed_by_dissection(pattern: &Pattern, in_blocks: f64) -> Option<SymbolicCholesky<usize>> {
+    let (order, inverse) = dissected(pattern)?;
+    let order = PermRef::new_checked(&order, &inverse, pattern.size());
+    analysed(pattern, SymmetricOrdering::Custom(order), in_blocks)
+}
+
+/// The fronts of a pattern, and of each the rows of the matrix that it has, its own first, for factors
+/// that need not be symmetric; `None` where the pattern is none, or they do not fit into memory.
+pub fn fronts(pattern: &Pattern) -> Option<(Tree, Vec<Vec<usize>>)> {
+    let mut symbolic = analysed(pattern, SymmetricOrdering::Amd, IN_FRONTS)?;
+    if let Some(other) = analysed_by_dissection(pattern, IN_FRONTS)
+        && other.len_val() < symbolic.len_val()
+    {
+        symbolic = other;
+    }
+    let SymbolicCholeskyRaw::Supernodal(supernodes) = symbolic.raw() else { return None };
+    let order = symbolic.perm();
+    let old = |new: usize| order.map_or(new, |p| p.arrays().0[new]);
+    let rows = (0..supernodes.n_supernodes()).map(|s| {
+        let own = supernodes.supernode_begin()[s]..supernodes.supernode_end()[s];
+        own.chain(supernodes.supernode(s).pattern().iter().copied()).map(old).collect()
+    });
+    let rows = rows.collect();
+    Some((Tree::new(pattern, supernodes, order), rows))
+}
+
 impl Cholesky {
     /// Prepares a pattern; `None` where it is none or its factor does not fit into memory.
     pub fn new(pattern: Pattern) -> Option<Self> {
         let n = pattern.size();
-        let ascending = |k: usize| {
-            let column = pattern.rows.get(pattern.starts[k]..pattern.starts[k + 1])?;
-            Some(
-                column.windows(2).all(|w| w[0] < w[1])
-                    && column.iter().all(|&i| (k..n).contains(&i)),
-            )
-        };
-        if n == 0
-            || pattern.starts[n] != pattern.rows.len()
-            || !(0..n).all(|k| ascending(k) == Some(true))
-        {
-            return None;
-        }
-        let entries =
-            SymbolicSparseColMatRef::new_checked(n, n, &pattern.starts, None, &pattern.rows);
-        let by = |ordering| {
-            let parameters = CholeskySymbolicParams {
-                supernodal_flop_ratio_threshold: SupernodalThreshold(IN_BLOCKS),
-                ..Default::default()
-            };
-            factorize_symbolic_cholesky(entries, Side::Lower, ordering, parameters).ok()
-        };
-        let mut symbolic = by(SymmetricOrdering::Amd)?;
+        let mut symbolic = analysed(&pattern, SymmetricOrdering::Amd, IN_BLOCKS)?;
         if n >= LARGE
-            && let Some((order, inverse)) = dissected(&pattern)
-            && let Some(other) =
-                by(SymmetricOrdering::Custom(PermRef::new_checked(&order, &inverse, n)))
+            && let Some(other) = analysed_by_dissection(&pattern, IN_BLOCKS)
             && other.len_val() < symbolic.len_val()
         {
             symbolic = other;
@@ -118,9 +151,9 @@ impl Cholesky {
         factor.resize(symbolic.len_val(), 0.0);
         let fronts = match symbolic.raw() {
             SymbolicCholeskyRaw::Supernodal(s) if n >= LARGE => {
-                let fronts = Fronts::new(&pattern, s, symbolic.perm());
-                let substitution = Substitution::new(&fronts, s, symbolic.perm(), n);
-                Some((fronts, substitution))
+                let tree = Tree::new(&pattern, s, symbolic.perm());
+                let substitution = Substitution::new(&tree, s, symbolic.perm(), n);
+                Some((tree, substitution))
             }
             _ => None,
         };
@@ -154,8 +187,8 @@ impl Cholesky {
         if values.len() != self.pattern.rows.len() {
             return false;
         }
-        if let Some((fronts, _)) = &self.fronts {
-            return fronts.factor(values, &mut self.factor, regularization, self.threads);
+        if let Some((tree, _)) = &self.fronts {
+            return tree.factor(values, &mut self.factor, regularization, self.threads);
         }
         let entries = SymbolicSparseColMatRef::new_checked(
             n,

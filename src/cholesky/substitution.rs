@@ -4,7 +4,7 @@
 //! Here and not faer's: that goes through general products of matrices for every supernode, most of
 //! which have a handful of columns, and on one thread.
 
-use super::fronts::Fronts;
+use super::tree::Tree;
 use faer::{Par, perm::PermRef, sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky};
 use std::sync::{Mutex, PoisonError};
 
@@ -41,7 +41,7 @@ struct Panel {
 
 impl Substitution {
     pub fn new(
-        fronts: &Fronts,
+        tree: &Tree,
         symbolic: &SymbolicSupernodalCholesky<usize>,
         order: Option<PermRef<'_, usize>>,
         size: usize,
@@ -78,8 +78,8 @@ impl Substitution {
             }
             Mutex::new(Part { rows, own, panels, values: Vec::new(), work: Vec::new() })
         };
-        let pieces = fronts.pieces().map(&mut part).collect();
-        let above: Vec<usize> = fronts.above().collect();
+        let pieces = tree.pieces().map(&mut part).collect();
+        let above: Vec<usize> = tree.above().collect();
         Self { pieces, above: part(&above) }
     }
 

@@ -68,7 +68,7 @@ pub struct Contacts {
     pub lighter: Vec<f64>,
     /// How many blocks each row, and how many bearings each column stands for: what is summed over
     /// the scene counts them.
-    pub(super) row_images: Vec<f64>,
+    pub row_images: Vec<f64>,
     pub(super) column_images: Vec<f64>,
 }
 

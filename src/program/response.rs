@@ -21,7 +21,7 @@ const MOST: usize = 6;
 struct Joint {
     /// Rows of the free blocks it touches, in row order; none for a support.
     blocks: [Range<usize>; 2],
-    /// Where each block's part of `A` starts: a column of the point after the other.
+    /// Where each block's part of `A` starts.
     first: [usize; 2],
     /// Where the rows of the second block follow in a column of the first, after its own.
     after: usize,
@@ -40,6 +40,26 @@ pub enum FrictionLimits<'a> {
     /// that presumably passes, instead of nothing, and friction turns from sticking to sliding over
     /// forces of that size. Points without friction have the mean load for theirs.
     Rounded(f64),
+}
+
+/// What contacts answer, and how that changes.
+pub struct Answer<const N: usize> {
+    /// Per column.
+    pub forces: Vec<f64>,
+    /// `g` per row.
+    pub imbalance: Vec<f64>,
+    /// `∂g/∂q`, lower triangle and upper one, entry by entry its mirror image.
+    pub triangles: [Vec<f64>; N],
+    /// How `g` changes with the logarithm of the rounding of corners; empty where none are rounded.
+    pub by_rounding: Vec<f64>,
+}
+
+/// How the forces of a point change with what they want (`by_wanted[i][j]`: column `i` with that of `j`)
+/// and with the rounding of corners.
+#[derive(Default)]
+struct Slopes {
+    by_wanted: [[f64; MOST]; MOST],
+    by_rounding: [f64; MOST],
 }
 
 impl<'a> FrictionLimits<'a> {
@@ -61,8 +81,8 @@ impl<'a> FrictionLimits<'a> {
 #[derive(Clone, Debug)]
 pub struct Response {
     joints: Vec<Joint>,
-    /// The parts of `A`, joint by joint.
-    operator: Vec<f64>,
+    /// The parts of `A`, joint by joint and block by block, a column of the point after the other.
+    operator: Vec<[f64; MOST]>,
     /// Where each column of the lower triangle of `∂g/∂q` starts, and where the last ends.
     starts: Vec<usize>,
     /// Rows of its entries.
@@ -125,7 +145,7 @@ impl Response {
                 joint.first[side] = size;
                 if let Some(block) = block {
                     joint.blocks[side] = statics.free[*block].rows.clone();
-                    size += p.columns * joint.blocks[side].len();
+                    size += p.columns;
                 }
             }
             if let [Some(a), Some(b)] = *blocks {
@@ -135,12 +155,12 @@ impl Response {
             disc += p.discs.len();
             joints.push(joint);
         }
-        let mut operator = vec![0.0; size];
+        let mut operator = vec![[0.0; MOST]; size];
         for ((&i, &j), &v) in matrix.i.iter().zip(&matrix.j).zip(&matrix.v) {
             let (joint, point) = (&joints[point_of[j]], &contacts.points[point_of[j]]);
             let side = usize::from(!joint.blocks[0].contains(&i));
             let rows = &joint.blocks[side];
-            operator[joint.first[side] + (j - point.column) * rows.len() + i - rows.start] += v;
+            operator[joint.first[side] + j - point.column][i - rows.start] += v;
         }
         let (mut starts, mut entries) = (vec![0], Vec::new());
         for (free, list) in statics.free.iter().zip(&neighbours) {
@@ -172,177 +192,197 @@ impl Response {
         friction: FrictionLimits,
         q: &[f64],
     ) -> (Vec<f64>, Vec<f64>) {
+        let Answer { forces, imbalance, .. } = self.answer::<0>(contacts, epsilon, friction, q);
+        (forces, imbalance)
+    }
+
+    /// The same with `∂g/∂q`: nothing of it, its lower triangle in the order of [`Self::pattern`], or its
+    /// upper one as well, which differs under Coulomb's law.
+    pub fn answer<const N: usize>(
+        &self,
+        contacts: &Contacts,
+        epsilon: f64,
+        friction: FrictionLimits,
+        q: &[f64],
+    ) -> Answer<N> {
+        // As many rows as a block in the plane has, or as any has.
+        if self.joints.iter().flat_map(|joint| &joint.blocks).all(|rows| rows.len() <= 3) {
+            self.answer_of::<3, N>(contacts, epsilon, friction, q)
+        } else {
+            self.answer_of::<MOST, N>(contacts, epsilon, friction, q)
+        }
+    }
+
+    /// The same of blocks that have at most `R` rows: sizes known here take less than half the time.
+    fn answer_of<const R: usize, const N: usize>(
+        &self,
+        contacts: &Contacts,
+        epsilon: f64,
+        friction: FrictionLimits,
+        q: &[f64],
+    ) -> Answer<N> {
         let mut forces = vec![0.0; contacts.compliance.len()];
-        let mut gradient: Vec<f64> = q
+        let mut imbalance: Vec<f64> = q
             .iter()
             .zip(&contacts.row_images)
             .zip(&contacts.statics.dead)
             .map(|((q, n), w)| epsilon * q / n - w)
             .collect();
-        for (joint, point) in self.joints.iter().zip(&contacts.points) {
-            let (n, c) = (point.columns, contacts.compliance[point.column]);
-            let wanted = self.wanted(joint, n, c * contacts.column_images[point.column], q);
-            let f = answer(point, c, friction.of(contacts, joint, point), &wanted, None);
-            forces[point.column..point.column + n].copy_from_slice(&f[..n]);
-            for (side, rows) in joint.blocks.iter().enumerate() {
-                for (k, f) in f.iter().enumerate().take(n).filter(|(_, f)| **f != 0.0) {
-                    for (g, a) in gradient[rows.clone()].iter_mut().zip(self.part(joint, side, k)) {
-                        *g -= a * f;
+        let size = if N == 0 { 0 } else { self.entries.len() };
+        let mut triangles = std::array::from_fn(|_| vec![0.0; size]);
+        for values in &mut triangles {
+            for (start, n) in self.starts.iter().zip(&contacts.row_images) {
+                values[*start] = epsilon / n;
+            }
+        }
+        let is_rounded = N > 0 && matches!(friction, FrictionLimits::Rounded(_));
+        let mut by_rounding = vec![0.0; if is_rounded { q.len() } else { 0 }];
+        // Points between the same two blocks follow one another.
+        let pairs = self.joints.chunk_by(|a, b| a.blocks == b.blocks);
+        let mut points = contacts.points.iter();
+        for joints in pairs {
+            let Some(Joint { blocks, after, .. }) = joints.first() else { continue };
+            let rates: [[f64; R]; 2] = std::array::from_fn(|side| first(&q[blocks[side].clone()]));
+            let mut given = [[[0.0; R]; 2]; 2];
+            let mut squares = [[[[0.0; R]; R]; 3]; N];
+            for (joint, point) in joints.iter().zip(&mut points) {
+                let (n, c) = (point.columns, contacts.compliance[point.column]);
+                let all = c * contacts.column_images[point.column];
+                let parts: [&[[f64; MOST]]; 2] = std::array::from_fn(|side| {
+                    let count = if blocks[side].is_empty() { 0 } else { n };
+                    &self.operator[joint.first[side]..joint.first[side] + count]
+                });
+                let mut f = wanted(parts, &rates, all);
+                let friction = friction.of(contacts, joint, point);
+                let mut slopes = Slopes::default();
+                let wants = (N > 0).then_some(&mut slopes);
+                answer(point, c, friction, &mut f, wants);
+                forces[point.column..point.column + n].copy_from_slice(&f[..n]);
+                give(parts, &f, &mut given[0]);
+                if N == 0 {
+                    continue;
+                }
+                if let FrictionLimits::Rounded(by) = friction {
+                    slopes.by_rounding.iter_mut().for_each(|s| *s *= by);
+                    give(parts, &slopes.by_rounding, &mut given[1]);
+                }
+                let slope = &mut slopes.by_wanted;
+                slope.iter_mut().take(n).flat_map(|row| &mut row[..n]).for_each(|s| *s /= all);
+                if slope.iter().take(n).flat_map(|row| &row[..n]).any(|s| *s != 0.0) {
+                    add(parts, slope, &mut squares);
+                }
+            }
+            for (side, rows) in blocks.iter().enumerate() {
+                take_off(&mut imbalance[rows.clone()], &given[0][side]);
+                if is_rounded {
+                    take_off(&mut by_rounding[rows.clone()], &given[1][side]);
+                }
+            }
+            for (values, squares) in triangles.iter_mut().zip(&squares) {
+                for ([other, side], square) in PAIRS.iter().zip(squares) {
+                    let (columns, rows) = (&blocks[*other], blocks[*side].len());
+                    for (i, (column, sums)) in columns.clone().zip(square).enumerate() {
+                        let own = self.starts[column];
+                        let (start, from) = if other == side {
+                            (own, i)
+                        } else {
+                            (own + columns.len() - i + after, 0)
+                        };
+                        let values = &mut values[start..start + rows - from];
+                        values.iter_mut().zip(&sums[from..rows]).for_each(|(v, s)| *v += s);
                     }
                 }
             }
         }
-        (forces, gradient)
-    }
-
-    /// `∂g/∂q` at the rates `q`, its lower triangle in the order of [`Self::pattern`].
-    pub fn derivative(
-        &self,
-        contacts: &Contacts,
-        epsilon: f64,
-        friction: FrictionLimits,
-        q: &[f64],
-    ) -> Vec<f64> {
-        let [lower] = self.triangles(contacts, epsilon, friction, q);
-        lower
-    }
-
-    /// The same and its upper triangle, entry by entry the mirror image, which differs under
-    /// Coulomb's law.
-    pub fn derivatives(
-        &self,
-        contacts: &Contacts,
-        epsilon: f64,
-        friction: FrictionLimits,
-        q: &[f64],
-    ) -> [Vec<f64>; 2] {
-        self.triangles(contacts, epsilon, friction, q)
-    }
-
-    /// The lower triangle, and the second time the upper one.
-    fn triangles<const N: usize>(
-        &self,
-        contacts: &Contacts,
-        epsilon: f64,
-        friction: FrictionLimits,
-        q: &[f64],
-    ) -> [Vec<f64>; N] {
-        let mut values = vec![0.0; self.entries.len()];
-        for (start, n) in self.starts.iter().zip(&contacts.row_images) {
-            values[*start] = epsilon / n;
-        }
-        let mut triangles = std::array::from_fn(|_| values.clone());
-        for (joint, point) in self.joints.iter().zip(&contacts.points) {
-            let (n, c) = (point.columns, contacts.compliance[point.column]);
-            let all = c * contacts.column_images[point.column];
-            let wanted = self.wanted(joint, n, all, q);
-            let mut slope = [[0.0; MOST]; MOST];
-            answer(point, c, friction.of(contacts, joint, point), &wanted, Some(&mut slope));
-            if slope.iter().flatten().all(|s| *s == 0.0) {
-                continue;
-            }
-            slope.iter_mut().flatten().for_each(|s| *s /= all);
-            for (k, values) in triangles.iter_mut().enumerate() {
-                if k > 0 {
-                    slope = std::array::from_fn(|i| slope.map(|row| row[i]));
-                }
-                // As many rows as a block in the plane has, or as any has: with sizes known here and
-                // both triangles at once it takes less than half the time.
-                if joint.blocks.iter().all(|rows| rows.len() <= 3) {
-                    self.add::<3>(joint, n, &slope, values);
-                } else {
-                    self.add::<MOST>(joint, n, &slope, values);
-                }
-            }
-        }
-        triangles
-    }
-
-    /// Adds `A D Aᵀ` of a point of `n` columns whose blocks have at most `R` rows.
-    fn add<const R: usize>(
-        &self,
-        joint: &Joint,
-        n: usize,
-        slope: &[[f64; MOST]; MOST],
-        values: &mut [f64],
-    ) {
-        let mut parts = [[[0.0; R]; MOST]; 2];
-        for (side, parts) in parts.iter_mut().enumerate() {
-            for (k, part) in parts.iter_mut().enumerate().take(n) {
-                let given = self.part(joint, side, k);
-                part[..given.len()].copy_from_slice(given);
-            }
-        }
-        for (side, rows) in joint.blocks.iter().enumerate() {
-            // A D of one block, then its products with Aᵀ of this block and the one before it.
-            let left: [[f64; R]; MOST] = std::array::from_fn(|j| {
-                let mut left = [0.0; R];
-                if j < n {
-                    for (part, row) in parts[side].iter().zip(slope).take(n) {
-                        left.iter_mut().zip(part).for_each(|(l, a)| *l += a * row[j]);
-                    }
-                }
-                left
-            });
-            for (other, columns) in joint.blocks.iter().enumerate().take(side + 1) {
-                for (i, column) in columns.clone().enumerate() {
-                    let own = self.starts[column];
-                    let (start, from) = if other == side {
-                        (own, i)
-                    } else {
-                        (own + columns.len() - i + joint.after, 0)
-                    };
-                    let mut sum = [0.0; R];
-                    for (left, part) in left.iter().zip(&parts[other]).take(n) {
-                        sum.iter_mut().zip(left).for_each(|(s, l)| *s += l * part[i]);
-                    }
-                    let own = &mut values[start..start + rows.len() - from];
-                    own.iter_mut().zip(&sum[from..rows.len()]).for_each(|(v, s)| *v += s);
-                }
-            }
-        }
-    }
-
-    /// Column `k` of a point in the rows of one of its blocks.
-    fn part(&self, joint: &Joint, side: usize, k: usize) -> &[f64] {
-        let d = joint.blocks[side].len();
-        &self.operator[joint.first[side] + k * d..joint.first[side] + (k + 1) * d]
-    }
-
-    /// `−u / c` of a point of `n` columns, `c` the compliance of all its images.
-    fn wanted(&self, joint: &Joint, n: usize, c: f64, q: &[f64]) -> [f64; MOST] {
-        let mut wanted = [0.0; MOST];
-        for (side, rows) in joint.blocks.iter().enumerate() {
-            for (k, w) in wanted.iter_mut().enumerate().take(n) {
-                *w -= self
-                    .part(joint, side, k)
-                    .iter()
-                    .zip(&q[rows.clone()])
-                    .map(|(a, q)| a * q)
-                    .sum::<f64>()
-                    / c;
-            }
-        }
-        wanted
+        Answer { forces, imbalance, triangles, by_rounding }
     }
 }
 
-/// The forces of a point nearest to `wanted`, and with `slope` how they change with it
-/// (`slope[i][j]`: column `i` with `wanted` `j`).
+/// Columns and rows of the parts of a matrix that two blocks have, each as a side of their joint.
+const PAIRS: [[usize; 2]; 3] = [[0, 0], [0, 1], [1, 1]];
+
+/// As many numbers, zeros where there are no more.
+fn first<const R: usize>(list: &[f64]) -> [f64; R] {
+    let mut first = [0.0; R];
+    first.iter_mut().zip(list).for_each(|(to, v)| *to = *v);
+    first
+}
+
+/// `−u / c` of a point with these parts of `A`, `c` the compliance of all its images.
+fn wanted<const R: usize>(
+    parts: [&[[f64; MOST]]; 2],
+    rates: &[[f64; R]; 2],
+    c: f64,
+) -> [f64; MOST] {
+    let mut wanted = [0.0; MOST];
+    for (parts, rates) in parts.iter().zip(rates) {
+        for (w, part) in wanted.iter_mut().zip(*parts) {
+            *w -= (0..R).map(|i| part[i] * rates[i]).sum::<f64>() / c;
+        }
+    }
+    wanted
+}
+
+/// Adds what forces of a point do to its blocks.
+fn give<const R: usize>(parts: [&[[f64; MOST]]; 2], f: &[f64; MOST], given: &mut [[f64; R]; 2]) {
+    for (parts, given) in parts.iter().zip(given) {
+        for (part, f) in parts.iter().zip(f).filter(|(_, f)| **f != 0.0) {
+            (0..R).for_each(|i| given[i] += part[i] * f);
+        }
+    }
+}
+
+fn take_off(rows: &mut [f64], given: &[f64]) {
+    rows.iter_mut().zip(given).for_each(|(row, given)| *row -= given);
+}
+
+/// Adds `A D Aᵀ` of a point, and the second time `A Dᵀ Aᵀ`, by [`PAIRS`] and columns.
+fn add<const R: usize, const N: usize>(
+    parts: [&[[f64; MOST]]; 2],
+    slope: &[[f64; MOST]; MOST],
+    squares: &mut [[[[f64; R]; R]; 3]; N],
+) {
+    for (transposed, squares) in squares.iter_mut().enumerate() {
+        // A D of either block, then its products with Aᵀ of this block and the one before it.
+        for (side, parts_here) in parts.iter().enumerate() {
+            let mut left = [[0.0; R]; MOST];
+            for (j, left) in left.iter_mut().enumerate().take(parts_here.len()) {
+                for (k, part) in parts_here.iter().enumerate() {
+                    let by = if transposed == 0 { slope[k][j] } else { slope[j][k] };
+                    (0..R).for_each(|i| left[i] += part[i] * by);
+                }
+            }
+            for ([other, _], square) in
+                PAIRS.iter().zip(&mut *squares).filter(|(p, _)| p[1] == side)
+            {
+                for (left, part) in left.iter().zip(parts[*other]) {
+                    for (sums, by) in square.iter_mut().zip(part) {
+                        (0..R).for_each(|i| sums[i] += left[i] * by);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Makes of what a point wants the nearest forces that it may have, and with `slopes` how they change.
 fn answer(
     point: &SlidingPoint,
     c: f64,
     friction: FrictionLimits,
-    wanted: &[f64; MOST],
-    mut slope: Option<&mut [[f64; MOST]; MOST]>,
-) -> [f64; MOST] {
-    let mut f = *wanted;
+    f: &mut [f64; MOST],
+    mut slopes: Option<&mut Slopes>,
+) {
     f[0] += point.rest;
-    if let Some(slope) = slope.as_deref_mut() {
-        for (k, row) in slope.iter_mut().enumerate().take(point.columns) {
+    if let Some(slopes) = slopes.as_deref_mut() {
+        for (k, row) in slopes.by_wanted.iter_mut().enumerate().take(point.columns) {
             row[k] = 1.0;
         }
     }
+    if let FrictionLimits::Rounded(by) = friction {
+        return rounded(point, by, f, slopes);
+    }
+    let mut slope = slopes.map(|slopes| &mut slopes.by_wanted);
     if let (FrictionLimits::Held(HeldQuantity::SlidingRates, &[rate, ..]), Some(disc)) =
         (friction, point.discs.first().filter(|d| d.slope > 0.0))
     {
@@ -350,12 +390,8 @@ fn answer(
         let tension = point.tension.min(disc.constant / disc.slope);
         f[0] -= rate / c;
         let at = disc.first - point.column..disc.first - point.column + disc.count;
-        onto_cone(&mut f, at, [disc.slope, disc.constant, tension], slope);
-        return f;
-    }
-    if let FrictionLimits::Rounded(by) = friction {
-        rounded(point, by, &mut f, slope);
-        return f;
+        onto_cone(f, at, [disc.slope, disc.constant, tension], slope);
+        return;
     }
     if f[0] < -point.tension {
         f[0] = -point.tension;
@@ -376,7 +412,7 @@ fn answer(
             FrictionLimits::Law | FrictionLimits::Rounded(_) => disc.limit(f[0]),
         };
         let at = disc.first - point.column..disc.first - point.column + disc.count;
-        let cut = onto_disc(&mut f, at.clone(), s, slope.as_deref_mut());
+        let cut = onto_disc(f, at.clone(), s, slope.as_deref_mut());
         if let (FrictionLimits::Law, true, Some(slope)) =
             (friction, cut && s > 0.0 && disc.slope > 0.0, slope.as_deref_mut())
         {
@@ -386,7 +422,6 @@ fn answer(
             }
         }
     }
-    f
 }
 
 /// Of two sides; in units of the loads nothing is so large or small that squares would not do, and
@@ -396,24 +431,23 @@ fn length(a: f64, b: f64) -> f64 {
 }
 
 /// The forces of a point where Coulomb's law has corners rounded by `by`, a force.
-fn rounded(
-    point: &SlidingPoint,
-    by: f64,
-    f: &mut [f64; MOST],
-    mut slope: Option<&mut [[f64; MOST]; MOST]>,
-) {
-    let mut normal = 1.0;
+fn rounded(point: &SlidingPoint, by: f64, f: &mut [f64; MOST], mut slopes: Option<&mut Slopes>) {
+    // How the first force changes with what it wants, and with `by`.
+    let (mut normal, mut normal_by) = (1.0, 0.0);
     if point.tension.is_finite() {
         let above = f[0] + point.tension;
         let root = length(above, 2.0 * by);
         f[0] = 0.5 * (above + root) - point.tension;
         normal = 0.5 * (1.0 + above / root);
+        normal_by = 2.0 * by / root;
     }
     if f[0] > point.most {
-        (f[0], normal) = (point.most, 0.0);
+        f[0] = point.most;
+        (normal, normal_by) = (0.0, 0.0);
     }
-    if let Some(slope) = slope.as_deref_mut() {
-        slope[0][0] = normal;
+    if let Some(slopes) = slopes.as_deref_mut() {
+        slopes.by_wanted[0][0] = normal;
+        slopes.by_rounding[0] = normal_by;
     }
     for disc in &point.discs {
         let at = disc.first - point.column..disc.first - point.column + disc.count;
@@ -423,15 +457,20 @@ fn rounded(
         let root = length(over, 2.0 * by);
         // The greater of the two, rounded.
         let greater = 0.5 * (size + s + root);
-        let (by_size, by_limit) = (0.5 * (1.0 + over / root), 0.5 * (1.0 - over / root));
         let share = s / greater;
-        if let Some(slope) = slope.as_deref_mut() {
+        if let Some(slopes) = slopes.as_deref_mut() {
+            let (by_size, by_limit) = (0.5 * (1.0 + over / root), 0.5 * (1.0 - over / root));
+            let limit_by = disc.slope * normal_by;
+            let greater_by = by_size * by / size + by_limit * limit_by + 2.0 * by / root;
+            let share_by = (limit_by - share * greater_by) / greater;
+            let each = by_size / (greater * size);
             for i in at.clone() {
-                slope[i][0] = disc.slope * normal * f[i] * (1.0 - share * by_limit) / greater;
+                let slope = &mut slopes.by_wanted[i];
+                slope[0] = disc.slope * normal * f[i] * (1.0 - share * by_limit) / greater;
                 for j in at.clone() {
-                    slope[i][j] = share
-                        * (f64::from(u8::from(i == j)) - by_size * f[i] / greater * f[j] / size);
+                    slope[j] = share * (f64::from(u8::from(i == j)) - each * f[i] * f[j]);
                 }
+                slopes.by_rounding[i] = f[i] * share_by;
             }
         }
         f[at].iter_mut().for_each(|v| *v *= share);

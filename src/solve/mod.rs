@@ -4,16 +4,14 @@
 mod clarabel;
 pub(crate) mod coulomb;
 mod engine;
-mod fronts;
 mod interior;
 mod krylov;
 mod lu;
 mod watched;
 
 pub use self::{
-    fronts::Fronts,
     krylov::Blocks,
-    lu::Lu,
+    lu::{Fronts, Lu},
     watched::{Session, solve},
 };
 

@@ -56,7 +56,7 @@ pub fn solved(
 /// as they do.
 pub fn completed(
     pattern: &Pattern,
-    fronts: &mut Option<Fronts>,
+    fronts: &mut Option<Fronts<f32>>,
     equations: &Equations,
     share: f64,
 ) -> Option<Vec<f64>> {
@@ -70,10 +70,10 @@ pub fn completed(
         return Some(flat(x));
     }
     if fronts.is_none() {
-        *fronts = Fronts::new(pattern, &matrix);
+        *fronts = Fronts::new(pattern);
     }
     let fronts = fronts.as_mut()?;
-    if !fronts.factor(&matrix) {
+    if !fronts.factor(&equations.lower, &equations.upper) {
         return None;
     }
     // Single precision may not serve for more than a rough solution: better that than none.

@@ -51,7 +51,7 @@ pub struct Newton<'a> {
     part: Vec<usize>,
     lu: Option<Lu>,
     cholesky: Option<Cholesky>,
-    pub(super) fronts: Option<Fronts>,
+    pub(super) fronts: Option<Fronts<f32>>,
     /// Whether equations are solved with incomplete factors where that is enough.
     pub(super) heap: bool,
     /// Steps that it took so far.
@@ -245,7 +245,7 @@ impl<'a> Newton<'a> {
         };
         if !solved {
             if self.lu.is_none() {
-                self.lu = Lu::new(pattern);
+                self.lu = Lu::whole(pattern);
             }
             if !self.lu.as_mut()?.solve(&lower, &upper, &mut x) {
                 return None;

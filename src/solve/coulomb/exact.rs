@@ -14,7 +14,7 @@ use crate::{
     deadline::Deadline,
     program::{
         coulomb::Contacts,
-        response::{FrictionLimits, Response},
+        response::{Answer, FrictionLimits, Response},
     },
     solve::{Lu, Pattern},
 };
@@ -127,21 +127,19 @@ impl Exact {
         rates: &[f64],
         imbalance: &[f64],
     ) -> Option<Vec<f64>> {
-        let step = imbalance.iter().map(|g| -g).collect();
-        self.solve(contacts, (resists, FrictionLimits::Law), rates, step)
+        let Answer { triangles, .. } =
+            self.response.answer(contacts, resists, FrictionLimits::Law, rates);
+        self.solve(&triangles, imbalance.iter().map(|g| -g).collect())
     }
 
-    /// Solves with the derivative of the imbalance at these rates, for one or two right-hand sides.
+    /// Solves with a derivative of the imbalance, for one or two right-hand sides.
     pub(super) fn solve(
         &mut self,
-        contacts: &Contacts,
-        (resists, law): (f64, FrictionLimits),
-        rates: &[f64],
+        [lower, upper]: &[Vec<f64>; 2],
         mut sides: Vec<f64>,
     ) -> Option<Vec<f64>> {
-        let [lower, upper] = self.response.derivatives(contacts, resists, law, rates);
         self.factors += 1;
-        self.lu.solve(&lower, &upper, &mut sides).then_some(sides)
+        self.lu.solve(lower, upper, &mut sides).then_some(sides)
     }
 
     /// The state at a smaller ε than that of the last of `trail` (ε and rates, the last improved),

@@ -15,7 +15,7 @@ use crate::{
     deadline::Deadline,
     program::{
         coulomb::Contacts,
-        response::{FrictionLimits, Response},
+        response::{Answer, FrictionLimits, Response},
     },
     solve::{Lu, Pattern},
 };
@@ -179,7 +179,8 @@ impl Law {
         way: f64,
         spring: f64,
     ) -> Option<(Vec<f64>, f64)> {
-        let [lower, upper] = self.response.derivatives(contacts, spring, FrictionLimits::Law, z);
+        let Answer { triangles: [lower, upper], .. } =
+            self.response.answer(contacts, spring, FrictionLimits::Law, z);
         let mut both: Vec<f64> =
             imbalance.iter().map(|g| -g).chain(self.live.iter().copied()).collect();
         if !self.lu.solve(&lower, &upper, &mut both) {

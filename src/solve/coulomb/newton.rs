@@ -8,7 +8,7 @@ use crate::{
     deadline::Deadline,
     program::{
         coulomb::{Contacts, HeldQuantity},
-        response::{FrictionLimits, Response},
+        response::{Answer, FrictionLimits, Response},
     },
     solve::{Cholesky, Pattern},
 };
@@ -99,10 +99,9 @@ impl Newton {
                 return None;
             }
             self.factors += 1;
-            if !self
-                .cholesky
-                .factorize(&self.response.derivative(contacts, epsilon, friction, &rates))
-            {
+            let Answer { triangles: [lower], .. } =
+                self.response.answer(contacts, epsilon, friction, &rates);
+            if !self.cholesky.factorize(&lower) {
                 return None;
             }
             let mut step: Vec<f64> = gradient.iter().map(|g| -g).collect();
@@ -208,7 +207,8 @@ mod tests {
                     let q: Vec<f64> = q.iter().zip(&step).map(|(q, s)| q + sign * s).collect();
                     response.forces(contacts, 1e-3, friction, &q).1
                 };
-                let [lower, upper] = response.derivatives(contacts, 1e-3, friction, &q);
+                let Answer { triangles: [lower, upper], by_rounding, .. } =
+                    response.answer(contacts, 1e-3, friction, &q);
                 let mut predicted = vec![0.0; n];
                 for column in 0..n {
                     for at in starts[column]..starts[column + 1] {
@@ -227,6 +227,20 @@ mod tests {
                 assert!(
                     norm(&apart) < 1e-5 * norm(&seen),
                     "scene {which} {friction:?} {size}: {} of {}",
+                    norm(&apart),
+                    norm(&seen)
+                );
+                let FrictionLimits::Rounded(by) = friction else { continue };
+                let rounder = |s: f64| {
+                    let friction = FrictionLimits::Rounded(by * s.exp());
+                    response.forces(contacts, 1e-3, friction, &q).1
+                };
+                let seen: Vec<f64> =
+                    rounder(1e-6).iter().zip(rounder(-1e-6)).map(|(a, b)| (a - b) / 2e-6).collect();
+                let apart: Vec<f64> = seen.iter().zip(&by_rounding).map(|(a, b)| a - b).collect();
+                assert!(
+                    norm(&apart) < 1e-7 * norm(&seen),
+                    "scene {which} {size}: {} of {} by rounding",
                     norm(&apart),
                     norm(&seen)
                 );

@@ -18,7 +18,10 @@ use super::{
 };
 use crate::{
     deadline::Deadline,
-    program::{coulomb::Contacts, response::FrictionLimits},
+    program::{
+        coulomb::Contacts,
+        response::{Answer, FrictionLimits},
+    },
 };
 
 /// The drag at the start, as an ε, of one try after the other. Less: the curve may come back. More:
@@ -57,8 +60,6 @@ const FACTORS: [usize; 2] = [500, 1000];
 const FACTORS_OF_LARGE: (usize, usize) = (4_000, 400);
 /// Most steps of Newton's method to the start.
 const FIRST: usize = 30;
-/// The difference by which the change along `s` is measured.
-const DIFFERENCE: f64 = 1e-4;
 /// Places are remembered as `s` falls by this. Less: memory. More: more of the curve is followed
 /// again.
 const REMEMBERED: f64 = 0.25;
@@ -186,9 +187,9 @@ impl Curve<'_> {
     fn start(&mut self) -> Option<(Place, Place, f64)> {
         let mut at = Place { rates: vec![0.0; self.contacts.statics.matrix.rows], s: 0.0 };
         for _ in 0..FIRST {
-            let imbalance = self.imbalance(&at);
-            let size = self.law.size(&imbalance);
-            let (step, along_s) = self.step(&at, &imbalance)?;
+            let slopes = self.slopes(&at);
+            let size = self.law.size(&slopes.imbalance);
+            let (step, along_s) = self.step(&at, &slopes)?;
             if size <= AT_START {
                 return Some((at, unit(along_s, None), STEPS[0]));
             }
@@ -210,8 +211,12 @@ impl Curve<'_> {
         let mut last = None;
         let mut first = f64::INFINITY;
         for k in 0..=CORRECTIONS[2] {
-            let imbalance = self.imbalance(&at);
-            let size = self.law.size(&imbalance);
+            // At the first place nothing ends: it needs its slopes.
+            let slopes = (k == 0).then(|| self.slopes(&at));
+            let size = match &slopes {
+                Some(slopes) => self.law.size(&slopes.imbalance),
+                None => self.law.size(&self.imbalance(&at)),
+            };
             let enough = (ON * at.s.exp()).max(allowed(self.epsilon, &at.rates));
             // What is allowed of huge rates, far off, is no place on the curve.
             let strays = (at.s - predicted).abs() > STEPS[1];
@@ -225,7 +230,8 @@ impl Curve<'_> {
             if !size.is_finite() || leads_away || k == CORRECTIONS[2] || self.end.is_over() {
                 return None;
             }
-            let (step, along_s) = self.step(&at, &imbalance)?;
+            let slopes = slopes.unwrap_or_else(|| self.slopes(&at));
+            let (step, along_s) = self.step(&at, &slopes)?;
             let across = |rates: &[f64]| dot(&way.rates, rates) / (LENGTH * LENGTH);
             let by = -across(&step) / (way.s + across(&along_s));
             at.rates = along(&along(&at.rates, &step, 1.0), &along_s, by);
@@ -244,13 +250,19 @@ impl Curve<'_> {
         self.law.response.forces(self.contacts, resists, law, &at.rates).1
     }
 
+    fn slopes(&self, at: &Place) -> Answer<2> {
+        let (resists, law) = self.law(at.s);
+        self.law.response.answer(self.contacts, resists, law, &at.rates)
+    }
+
     /// The step of Newton's method at the same `s`, and how the rates change with `s`.
-    fn step(&mut self, at: &Place, imbalance: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
-        let further = self.imbalance(&Place { rates: at.rates.clone(), s: at.s + DIFFERENCE });
-        let mut both: Vec<f64> = imbalance.iter().map(|g| -g).collect();
-        both.extend(imbalance.iter().zip(&further).map(|(g, next)| (g - next) / DIFFERENCE));
-        let mut both = self.law.solve(self.contacts, self.law(at.s), &at.rates, both)?;
-        let along_s = both.split_off(imbalance.len());
+    fn step(&mut self, at: &Place, slopes: &Answer<2>) -> Option<(Vec<f64>, Vec<f64>)> {
+        let mut both: Vec<f64> = slopes.imbalance.iter().map(|g| -g).collect();
+        let drag = FREER * drag_at(self.drag, at.s);
+        let by_drag = at.rates.iter().zip(&self.contacts.row_images).map(|(q, n)| drag * q / n);
+        both.extend(slopes.by_rounding.iter().zip(by_drag).map(|(g, d)| -g - d));
+        let mut both = self.law.solve(&slopes.triangles, both)?;
+        let along_s = both.split_off(slopes.imbalance.len());
         Some((both, along_s))
     }
 }

@@ -1,7 +1,6 @@
-//! Sparse LU factorisation of square matrices of a symmetric pattern and unsymmetric values; with
-//! `cholesky.rs` the adapter to faer.
+//! Factors of square matrices by faer, which chooses its own order and pivots among all rows of a column.
 
-use super::Pattern;
+use super::super::Pattern;
 use faer::{
     Conj, MatMut, Par,
     dyn_stack::{MemBuffer, MemStack, StackReq},
@@ -16,7 +15,7 @@ use faer::{
 
 /// Factors of matrices of one pattern: the ordering is found once. One thread, so that the same
 /// matrix always has the same factors.
-pub struct Lu {
+pub struct Whole {
     pattern: Pattern,
     /// Where each entry of the lower triangle, and its mirror image, stand in the whole matrix.
     places: Vec<[usize; 2]>,
@@ -26,7 +25,7 @@ pub struct Lu {
     work: MemBuffer,
 }
 
-impl Lu {
+impl Whole {
     /// Prepares the pattern of which this is the lower triangle, diagonal included; `None` where it
     /// is none or does not fit into memory.
     pub fn new(lower: &Pattern) -> Option<Self> {
@@ -122,95 +121,5 @@ impl Lu {
         );
         // A pivot of exactly zero was divided by.
         x.iter().all(|v| v.is_finite())
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use nalgebra::{DMatrix, DVector};
-    use proptest::prelude::*;
-
-    /// `[[4, 2, 0], [1, 3, −1], [0, 1, 2]]`.
-    fn three() -> (Pattern, [f64; 5], [f64; 5]) {
-        (
-            Pattern { starts: vec![0, 2, 4, 5], rows: vec![0, 1, 1, 2, 2] },
-            [4.0, 1.0, 3.0, 1.0, 2.0],
-            [4.0, 2.0, 3.0, -1.0, 2.0],
-        )
-    }
-
-    #[test]
-    fn what_was_multiplied_comes_back() {
-        let (pattern, lower, upper) = three();
-        let mut lu = Lu::new(&pattern).unwrap();
-        // The matrix times (1, −2, 3) and times (0, 1, 1).
-        let mut x = [0.0, -8.0, 4.0, 2.0, 2.0, 3.0];
-        assert!(lu.solve(&lower, &upper, &mut x));
-        for (x, want) in x.iter().zip([1.0, -2.0, 3.0, 0.0, 1.0, 1.0]) {
-            assert!((x - want).abs() < 1e-14);
-        }
-    }
-
-    #[test]
-    fn a_pivot_of_exactly_zero_is_singular() {
-        // [[1, 1], [1, 1]], and no entry but zeros.
-        let mut lu = Lu::new(&Pattern { starts: vec![0, 2, 3], rows: vec![0, 1, 1] }).unwrap();
-        assert!(!lu.solve(&[1.0; 3], &[1.0; 3], &mut [1.0, 2.0]));
-        assert!(!lu.solve(&[0.0; 3], &[0.0; 3], &mut [1.0, 2.0]));
-        // What comes after is not spoilt.
-        let mut x = [1.0, 2.0];
-        assert!(lu.solve(&[2.0, 0.0, 1.0], &[2.0, 0.0, 1.0], &mut x) && x == [0.5, 2.0]);
-    }
-
-    proptest! {
-        /// Small whole numbers on random patterns: pivots cancel exactly. Against a dense
-        /// factorisation.
-        #[test]
-        fn whole_numbers_are_solved_or_singular(n in 1usize..9, seed in any::<u64>(), share in 1u64..9) {
-            let mut state = seed;
-            let mut next = |below: u64| {
-                state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-                (state >> 33) % below
-            };
-            let (mut pattern, mut lower, mut upper) = (Pattern { starts: vec![0], rows: Vec::new() }, Vec::new(), Vec::new());
-            let mut whole = DMatrix::zeros(n, n);
-            for j in 0..n {
-                for i in j..n {
-                    if i == j || next(10) < share {
-                        let mut entry = || next(5) as f64 - 2.0;
-                        let (l, u) = (entry(), entry());
-                        let u = if i == j { l } else { u };
-                        pattern.rows.push(i);
-                        lower.push(l);
-                        upper.push(u);
-                        (whole[(i, j)], whole[(j, i)]) = (l, u);
-                    }
-                }
-                pattern.starts.push(pattern.rows.len());
-            }
-            let rhs: Vec<f64> = (0..n).map(|_| next(7) as f64 - 3.0).collect();
-            let mut x = rhs.clone();
-            let solved = Lu::new(&pattern).unwrap().solve(&lower, &upper, &mut x);
-            // The determinant of whole numbers is one.
-            if whole.determinant().abs() > 0.5 {
-                prop_assert!(solved);
-                prop_assert!((whole * DVector::from(x) - DVector::from(rhs)).norm() < 1e-8);
-            } else if solved {
-                prop_assert!(x.iter().all(|v| v.is_finite()));
-            }
-        }
-    }
-
-    #[test]
-    fn what_does_not_fit_is_refused() {
-        let (pattern, lower, upper) = three();
-        let mut lu = Lu::new(&pattern).unwrap();
-        assert!(!lu.solve(&lower[..4], &upper, &mut [0.0; 3]));
-        assert!(!lu.solve(&lower, &upper, &mut [0.0; 4]));
-        assert!(!lu.solve(&lower, &upper, &mut [0.0; 9]));
-        assert!(Lu::new(&Pattern { rows: vec![1, 0, 1, 2, 2], ..pattern.clone() }).is_none());
-        assert!(Lu::new(&Pattern { rows: vec![0, 9, 1, 2, 2], ..pattern.clone() }).is_none());
-        assert!(Lu::new(&Pattern { starts: vec![0, 2, 4, 7], ..pattern }).is_none());
     }
 }

@@ -1,0 +1,294 @@
+//! Complete factors of square matrices, front by front (Duff & Reid 1983): every front gathers its own
+//! rows and what its children leave of theirs in one dense matrix, so that all work is products of dense
+//! matrices.
+//!
+//! The order is that of symmetric matrices of the pattern, and pivots are chosen among the rows of a
+//! front alone. Here and not from a library: `faer` takes no order of one's own for matrices that are
+//! not symmetric, and the one that it finds costs three to seven times as much.
+
+use super::super::{Pattern, krylov::Factors};
+use crate::cholesky::{Tree, fronts};
+use faer::{
+    Accum, MatMut, Par,
+    dyn_stack::{MemBuffer, MemStack},
+    linalg::{
+        lu::partial_pivoting::factor::{lu_in_place, lu_in_place_scratch},
+        matmul::matmul,
+        triangular_solve::{solve_lower_triangular_in_place, solve_unit_lower_triangular_in_place},
+    },
+    reborrow::{Reborrow, ReborrowMut},
+};
+use faer_traits::RealField;
+use nalgebra::Vector6;
+use std::ops::{AddAssign, Div, Mul, SubAssign};
+
+/// What factors are made of.
+pub trait Precision:
+    RealField + Copy + AddAssign + SubAssign + Mul<Output = Self> + Div<Output = Self>
+{
+    /// The nearest number to this one.
+    fn near(value: f64) -> Self;
+    /// The same number.
+    fn wide(self) -> f64;
+}
+
+impl Precision for f64 {
+    fn near(value: f64) -> Self {
+        value
+    }
+
+    fn wide(self) -> f64 {
+        self
+    }
+}
+
+impl Precision for f32 {
+    fn near(value: f64) -> Self {
+        value as f32
+    }
+
+    fn wide(self) -> f64 {
+        f64::from(self)
+    }
+}
+
+/// Factors of matrices of one pattern.
+pub struct Fronts<T> {
+    tree: Tree,
+    /// Fronts in the order of elimination.
+    order: Vec<usize>,
+    factors: Vec<Front<T>>,
+    /// Whether there are factors.
+    pub ready: bool,
+}
+
+/// The factors of one front.
+struct Front<T> {
+    /// Its rows of the matrix, its own first.
+    rows: Vec<usize>,
+    /// Entries of the matrix in its own rows and columns, and where that of the lower triangle and its
+    /// mirror image stand in `values`.
+    entries: Vec<(usize, [usize; 2])>,
+    /// Its own columns, and then, by columns of their own, its rows beyond them.
+    values: Vec<T>,
+    /// Which of its rows is each pivot.
+    pivots: Vec<usize>,
+}
+
+/// What a front leaves of the rows beyond its own, by columns.
+struct Rest<T> {
+    of: usize,
+    values: Vec<T>,
+}
+
+impl<T: Precision> Fronts<T> {
+    /// Prepares the pattern of a lower triangle, diagonal included; nothing where it is none, or does not
+    /// fit into memory.
+    pub fn new(pattern: &Pattern) -> Option<Self> {
+        let (mut tree, rows) = fronts(pattern)?;
+        let mut column_of = vec![0; pattern.rows.len()];
+        (0..pattern.size())
+            .for_each(|c| column_of[pattern.starts[c]..pattern.starts[c + 1]].fill(c));
+        let mut factors = Vec::with_capacity(rows.len());
+        for (front, rows) in tree.list.iter_mut().zip(rows) {
+            let (width, size) = (front.width, front.size);
+            let entries = std::mem::take(&mut front.entries).into_iter().map(|(e, at)| {
+                let (row, column) = (at % size, at / size);
+                let mirrored = match row.checked_sub(width) {
+                    None => row * size + column,
+                    Some(beyond) => (size + beyond) * width + column,
+                };
+                // In this order it may stand in the other triangle.
+                let same = rows[column] == column_of[e];
+                (e, if same { [at, mirrored] } else { [mirrored, at] })
+            });
+            let entries = entries.collect();
+            let mut values = Vec::new();
+            let count = width * (2 * size - width);
+            values.try_reserve_exact(count).ok()?;
+            values.resize(count, T::near(0.0));
+            factors.push(Front { rows, entries, values, pivots: vec![0; width] });
+        }
+        let alone = |s: usize| tree.piece[s].map(|piece| tree.pieces[piece].clone());
+        let order = tree.above.iter().flat_map(|&s| alone(s).unwrap_or(vec![s])).collect();
+        Some(Self { tree, order, factors, ready: false })
+    }
+
+    /// Factors the matrix with these values of the lower triangle and, entry by entry, of its mirror image;
+    /// false where a pivot is zero, or memory is short.
+    pub fn factor(&mut self, lower: &[f64], upper: &[f64]) -> bool {
+        let mut rests = Vec::new();
+        self.ready = (0..self.order.len())
+            .all(|k| self.eliminate(self.order[k], lower, upper, &mut rests).is_some());
+        self.ready
+    }
+
+    /// Eliminates a front: what its children left is last of `rests`, and what it leaves takes their place.
+    fn eliminate(
+        &mut self,
+        s: usize,
+        lower: &[f64],
+        upper: &[f64],
+        rests: &mut Vec<Rest<T>>,
+    ) -> Option<()> {
+        let (front, factors) = (&self.tree.list[s], &mut self.factors[s]);
+        let (width, size) = (front.width, front.size);
+        let beyond = size - width;
+        factors.values.fill(T::near(0.0));
+        for &(e, [below, above]) in &factors.entries {
+            factors.values[below] += T::near(lower[e]);
+            if above != below {
+                factors.values[above] += T::near(upper[e]);
+            }
+        }
+        let (columns, across) = factors.values.split_at_mut(width * size);
+        let mut rest = Vec::new();
+        rest.try_reserve_exact(beyond * beyond).ok()?;
+        rest.resize(beyond * beyond, T::near(0.0));
+        for child in rests.drain(rests.len() - front.children..) {
+            let into = &self.tree.list[child.of].into;
+            // Ascending: first what is eliminated here.
+            let own = into.partition_point(|&row| row < width);
+            for (column, from) in into.iter().zip(child.values.chunks_exact(into.len())) {
+                let (here, left) = from.split_at(own);
+                let (to_here, to_left) = match column.checked_sub(width) {
+                    None => columns[column * size..(column + 1) * size].split_at_mut(width),
+                    Some(k) => (
+                        &mut across[k * width..(k + 1) * width],
+                        &mut rest[k * beyond..(k + 1) * beyond],
+                    ),
+                };
+                into.iter().zip(here).for_each(|(&row, v)| to_here[row] += *v);
+                into[own..].iter().zip(left).for_each(|(&row, v)| to_left[row - width] += *v);
+            }
+        }
+        let columns = MatMut::from_column_major_slice_mut(columns, size, width);
+        let (mut own, mut under) = columns.split_at_row_mut(width);
+        let mut inverse = vec![0; width];
+        let mut work = MemBuffer::new(lu_in_place_scratch::<usize, T>(
+            width,
+            width,
+            Par::Seq,
+            Default::default(),
+        ));
+        let stack = MemStack::new(&mut work);
+        let pivots = &mut factors.pivots;
+        lu_in_place(own.rb_mut(), pivots, &mut inverse, Par::Seq, stack, Default::default());
+        let is_pivot = |k: usize| own[(k, k)].wide().is_finite() && own[(k, k)].wide() != 0.0;
+        if !(0..width).all(is_pivot) {
+            return None;
+        }
+        for column in across.chunks_exact_mut(width) {
+            let before: Vec<T> = pivots.iter().map(|&row| column[row]).collect();
+            column.copy_from_slice(&before);
+        }
+        let mut across = MatMut::from_column_major_slice_mut(across, width, beyond);
+        solve_unit_lower_triangular_in_place(own.rb(), across.rb_mut(), Par::Seq);
+        solve_lower_triangular_in_place(
+            own.rb().transpose(),
+            under.rb_mut().transpose_mut(),
+            Par::Seq,
+        );
+        let left = MatMut::from_column_major_slice_mut(&mut rest, beyond, beyond);
+        matmul(left, Accum::Add, under.rb(), across.rb(), T::near(-1.0), Par::Seq);
+        rests.push(Rest { of: s, values: rest });
+        Some(())
+    }
+
+    /// Solves with the factors, in place.
+    pub fn solve(&self, x: &mut [f64]) {
+        let mut work = Vec::new();
+        for &s in &self.order {
+            let (front, width) = (&self.factors[s], self.tree.list[s].width);
+            work.clear();
+            work.extend(front.pivots.iter().map(|&row| T::near(x[front.rows[row]])));
+            work.extend(front.rows[width..].iter().map(|&row| T::near(x[row])));
+            for (k, column) in front.values.chunks_exact(work.len()).take(width).enumerate() {
+                let (solved, others) = work.split_at_mut(k + 1);
+                less(others, solved[k], &column[k + 1..]);
+            }
+            front.rows.iter().zip(&work).for_each(|(&row, v)| x[row] = v.wide());
+        }
+        for &s in self.order.iter().rev() {
+            let (front, width) = (&self.factors[s], self.tree.list[s].width);
+            let size = front.rows.len();
+            work.clear();
+            work.extend(front.rows[..width].iter().map(|&row| T::near(x[row])));
+            let (columns, across) = front.values.split_at(width * size);
+            for (&row, column) in front.rows[width..].iter().zip(across.chunks_exact(width)) {
+                less(&mut work, T::near(x[row]), column);
+            }
+            for (k, column) in columns.chunks_exact(size).enumerate().rev() {
+                work[k] = work[k] / column[k];
+                let (others, solved) = work.split_at_mut(k);
+                less(others, solved[0], &column[..k]);
+            }
+            front.rows.iter().zip(&work).for_each(|(&row, v)| x[row] = v.wide());
+        }
+    }
+}
+
+fn less<T: Precision>(to: &mut [T], by: T, column: &[T]) {
+    to.iter_mut().zip(column).for_each(|(to, v)| *to -= by * *v);
+}
+
+impl<T: Precision> Factors for Fronts<T> {
+    fn solve(&self, x: &mut [Vector6<f64>]) {
+        let mut flat: Vec<f64> = x.iter().flat_map(|v| v.iter().copied()).collect();
+        Self::solve(self, &mut flat);
+        x.iter_mut().zip(flat.chunks_exact(6)).for_each(|(v, six)| v.copy_from_slice(six));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{super::super::Blocks, *};
+
+    /// A lattice of blocks in space, unsymmetric and not definite: what was multiplied comes back.
+    #[test]
+    fn what_was_multiplied_comes_back() {
+        let side = 5;
+        let n = side * side * side;
+        let mut pattern = Pattern { starts: vec![0], rows: Vec::new() };
+        let (mut lower, mut upper) = (Vec::new(), Vec::new());
+        for k in 0..n {
+            let steps = [(1, k), (side, k / side), (side * side, k / (side * side))];
+            let others: Vec<usize> =
+                steps.iter().filter(|s| s.1 % side + 1 < side).map(|s| k + s.0).collect();
+            for c in 0..6 {
+                let own = 6 * k + c;
+                for row in (own..6 * k + 6).chain(others.iter().flat_map(|o| 6 * o..6 * o + 6)) {
+                    let value = ((row * 7 + own * 3) % 11) as f64 / 30.0;
+                    let diagonal = if k % 3 == 0 { -3.0 } else { 3.0 };
+                    pattern.rows.push(row);
+                    lower.push(if row == own { diagonal } else { -value });
+                    upper.push(if row == own { diagonal } else { 0.5 * value });
+                }
+                pattern.starts.push(pattern.rows.len());
+            }
+        }
+        let x: Vec<f64> = (0..6 * n).map(|i| (i % 13) as f64 - 6.0).collect();
+        let mut right = vec![0.0; 6 * n];
+        for column in 0..6 * n {
+            for e in pattern.starts[column]..pattern.starts[column + 1] {
+                let row = pattern.rows[e];
+                right[row] += lower[e] * x[column];
+                if row != column {
+                    right[column] += upper[e] * x[row];
+                }
+            }
+        }
+        let right: Vec<Vector6<f64>> =
+            right.chunks_exact(6).map(Vector6::from_column_slice).collect();
+        let matrix = Blocks::new(&pattern, &lower, &upper);
+        let mut fronts = Fronts::<f32>::new(&pattern).unwrap();
+        assert!(!fronts.ready);
+        assert!(fronts.factor(&lower, &upper));
+        assert!(fronts.ready);
+        // Single precision leaves little to find.
+        let got = matrix.solve(&fronts, &right, 1e-12, 12).unwrap();
+        for (a, b) in got.iter().zip(x.chunks_exact(6)) {
+            assert!((a - Vector6::from_column_slice(b)).norm() < 1e-8, "{a} {b:?}");
+        }
+    }
+}
