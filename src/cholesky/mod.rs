@@ -6,7 +6,7 @@ mod fronts;
 mod substitution;
 mod tree;
 
-pub use tree::Tree;
+pub(crate) use tree::Tree;
 
 use dissection::dissected;
 use faer::{
@@ -43,7 +43,7 @@ impl Pattern {
     }
 }
 
-/// Rows from which nested dissection is tried beside approximate minimum degree. Fewer: time for
+/// Rows from which nested dissection of symmetric matrices is tried beside approximate minimum degree. Fewer: time for
 /// what is factored in less. More: heaps in space take twice as long.
 const LARGE: usize = 6_000;
 
@@ -51,7 +51,7 @@ const LARGE: usize = 6_000;
 /// More: vaults of 400 blocks are factored column by column (17.9 s a state in place of 15.5). Fewer:
 /// no gain.
 const IN_BLOCKS: f64 = 0.2;
-/// The same where it is always.
+/// The same where every factor goes by blocks of columns: less than any.
 const IN_FRONTS: f64 = -1.0;
 
 /// Factors of matrices of one pattern: the ordering, of approximate minimum degree and nested
@@ -111,7 +111,7 @@ fn analysed_by_dissection(pattern: &Pattern, in_blocks: f64) -> Option<SymbolicC
 
 /// The fronts of a pattern, and of each the rows of the matrix that it has, its own first, for factors
 /// that need not be symmetric; `None` where the pattern is none, or they do not fit into memory.
-pub fn fronts(pattern: &Pattern) -> Option<(Tree, Vec<Vec<usize>>)> {
+pub(crate) fn fronts(pattern: &Pattern) -> Option<(Tree, Vec<Vec<usize>>)> {
     let mut symbolic = analysed(pattern, SymmetricOrdering::Amd, IN_FRONTS)?;
     if let Some(other) = analysed_by_dissection(pattern, IN_FRONTS)
         && other.len_val() < symbolic.len_val()

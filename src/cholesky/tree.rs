@@ -33,9 +33,9 @@ pub struct Front {
     pub into: Vec<usize>,
     /// Which entries of the matrix belong to its own columns, and where.
     pub entries: Vec<(usize, usize)>,
-    /// Numbers of the factor that it has.
+    /// Numbers of a symmetric factor that it has.
     pub count: usize,
-    /// Operations.
+    /// Operations of a symmetric factor.
     pub work: f64,
 }
 

@@ -50,7 +50,7 @@ pub struct Answer<const N: usize> {
     pub imbalance: Vec<f64>,
     /// `∂g/∂q`, lower triangle and upper one, entry by entry its mirror image.
     pub triangles: [Vec<f64>; N],
-    /// How `g` changes with the logarithm of the rounding of corners; empty where none are rounded.
+    /// How `g` changes with the logarithm of the rounding of corners; empty where none are rounded, and without triangles.
     pub by_rounding: Vec<f64>,
 }
 

@@ -211,7 +211,7 @@ impl Curve<'_> {
         let mut last = None;
         let mut first = f64::INFINITY;
         for k in 0..=CORRECTIONS[2] {
-            // At the first place nothing ends: it needs its slopes.
+            // The first place is never near enough: it needs its slopes.
             let slopes = (k == 0).then(|| self.slopes(&at));
             let size = match &slopes {
                 Some(slopes) => self.law.size(&slopes.imbalance),

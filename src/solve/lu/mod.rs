@@ -118,7 +118,7 @@ impl Matrix<'_> {
         }
         let share =
             |(left, terms): (&f64, &f64)| if *left == 0.0 { 0.0 } else { left.abs() / terms };
-        // What is no number comes out as the greatest.
+        // What is no number is the greatest.
         let most = left
             .iter()
             .zip(&terms)
@@ -207,6 +207,14 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// A pivot whose inverse is too large for a number, beside one of one.
+    #[test]
+    fn what_is_no_number_is_no_solution() {
+        let mut lu = Lu::new(&Pattern { starts: vec![0, 1, 2], rows: vec![0, 1] }).unwrap();
+        let mut x = [1.0, 1.0];
+        assert!(!lu.solve(&[1e-320, 1.0], &[1e-320, 1.0], &mut x));
     }
 
     #[test]
