@@ -1,5 +1,5 @@
-//! Equations of heaps by incomplete factors, and where those do not serve by complete ones of single
-//! precision, which are kept as long as they do.
+//! Equations of heaps by incomplete factors, and where those do not serve by complete ones,
+//! which are kept as long as they do.
 
 use super::equations::Equations;
 use crate::{
@@ -56,7 +56,7 @@ pub fn solved(
 /// as they do.
 pub fn completed(
     pattern: &Pattern,
-    fronts: &mut Option<Fronts<f32>>,
+    fronts: &mut Option<Fronts>,
     equations: &Equations,
     share: f64,
 ) -> Option<Vec<f64>> {
@@ -76,7 +76,7 @@ pub fn completed(
     if !fronts.factor(&equations.lower, &equations.upper) {
         return None;
     }
-    // Single precision may not serve for more than a rough solution: better that than none.
+    // Pivots of fronts may not serve for more than a rough solution: better that than none.
     let close = matrix.solve(fronts, &right, share, SOME);
     close.or_else(|| matrix.solve(fronts, &right, share.max(BY_OLD), PRODUCTS)).map(flat)
 }

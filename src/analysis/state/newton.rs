@@ -51,7 +51,7 @@ pub struct Newton<'a> {
     part: Vec<usize>,
     lu: Option<Lu>,
     cholesky: Option<Cholesky>,
-    pub(super) fronts: Option<Fronts<f32>>,
+    pub(super) fronts: Option<Fronts>,
     /// Whether equations are solved with incomplete factors where that is enough.
     pub(super) heap: bool,
     /// Steps that it took so far.

@@ -18,70 +18,38 @@ use faer::{
     },
     reborrow::{Reborrow, ReborrowMut},
 };
-use faer_traits::RealField;
 use nalgebra::Vector6;
-use std::ops::{AddAssign, Div, Mul, SubAssign};
-
-/// What factors are made of.
-pub trait Precision:
-    RealField + Copy + AddAssign + SubAssign + Mul<Output = Self> + Div<Output = Self>
-{
-    /// The nearest number to this one.
-    fn near(value: f64) -> Self;
-    /// The same number.
-    fn wide(self) -> f64;
-}
-
-impl Precision for f64 {
-    fn near(value: f64) -> Self {
-        value
-    }
-
-    fn wide(self) -> f64 {
-        self
-    }
-}
-
-impl Precision for f32 {
-    fn near(value: f64) -> Self {
-        value as f32
-    }
-
-    fn wide(self) -> f64 {
-        f64::from(self)
-    }
-}
 
 /// Factors of matrices of one pattern.
-pub struct Fronts<T> {
+pub struct Fronts {
     tree: Tree,
     /// Fronts in the order of elimination.
     order: Vec<usize>,
-    factors: Vec<Front<T>>,
+    factors: Vec<Front>,
     /// Whether there are factors.
     pub ready: bool,
 }
 
 /// The factors of one front.
-struct Front<T> {
+struct Front {
     /// Its rows of the matrix, its own first.
     rows: Vec<usize>,
     /// Entries of the matrix in its own rows and columns, and where that of the lower triangle and its
     /// mirror image stand in `values`.
     entries: Vec<(usize, [usize; 2])>,
     /// Its own columns, and then, by columns of their own, its rows beyond them.
-    values: Vec<T>,
+    values: Vec<f64>,
     /// Which of its rows is each pivot.
     pivots: Vec<usize>,
 }
 
 /// What a front leaves of the rows beyond its own, by columns.
-struct Rest<T> {
+struct Rest {
     of: usize,
-    values: Vec<T>,
+    values: Vec<f64>,
 }
 
-impl<T: Precision> Fronts<T> {
+impl Fronts {
     /// Prepares the pattern of a lower triangle, diagonal included; nothing where it is none, or does not
     /// fit into memory.
     pub fn new(pattern: &Pattern) -> Option<Self> {
@@ -106,7 +74,7 @@ impl<T: Precision> Fronts<T> {
             let mut values = Vec::new();
             let count = width * (2 * size - width);
             values.try_reserve_exact(count).ok()?;
-            values.resize(count, T::near(0.0));
+            values.resize(count, 0.0);
             factors.push(Front { rows, entries, values, pivots: vec![0; width] });
         }
         let alone = |s: usize| tree.piece[s].map(|piece| tree.pieces[piece].clone());
@@ -129,22 +97,22 @@ impl<T: Precision> Fronts<T> {
         s: usize,
         lower: &[f64],
         upper: &[f64],
-        rests: &mut Vec<Rest<T>>,
+        rests: &mut Vec<Rest>,
     ) -> Option<()> {
         let (front, factors) = (&self.tree.list[s], &mut self.factors[s]);
         let (width, size) = (front.width, front.size);
         let beyond = size - width;
-        factors.values.fill(T::near(0.0));
+        factors.values.fill(0.0);
         for &(e, [below, above]) in &factors.entries {
-            factors.values[below] += T::near(lower[e]);
+            factors.values[below] += lower[e];
             if above != below {
-                factors.values[above] += T::near(upper[e]);
+                factors.values[above] += upper[e];
             }
         }
         let (columns, across) = factors.values.split_at_mut(width * size);
         let mut rest = Vec::new();
         rest.try_reserve_exact(beyond * beyond).ok()?;
-        rest.resize(beyond * beyond, T::near(0.0));
+        rest.resize(beyond * beyond, 0.0);
         for child in rests.drain(rests.len() - front.children..) {
             let into = &self.tree.list[child.of].into;
             // Ascending: first what is eliminated here.
@@ -165,7 +133,7 @@ impl<T: Precision> Fronts<T> {
         let columns = MatMut::from_column_major_slice_mut(columns, size, width);
         let (mut own, mut under) = columns.split_at_row_mut(width);
         let mut inverse = vec![0; width];
-        let mut work = MemBuffer::new(lu_in_place_scratch::<usize, T>(
+        let mut work = MemBuffer::new(lu_in_place_scratch::<usize, f64>(
             width,
             width,
             Par::Seq,
@@ -174,12 +142,12 @@ impl<T: Precision> Fronts<T> {
         let stack = MemStack::new(&mut work);
         let pivots = &mut factors.pivots;
         lu_in_place(own.rb_mut(), pivots, &mut inverse, Par::Seq, stack, Default::default());
-        let is_pivot = |k: usize| own[(k, k)].wide().is_finite() && own[(k, k)].wide() != 0.0;
+        let is_pivot = |k: usize| own[(k, k)].is_finite() && own[(k, k)] != 0.0;
         if !(0..width).all(is_pivot) {
             return None;
         }
         for column in across.chunks_exact_mut(width) {
-            let before: Vec<T> = pivots.iter().map(|&row| column[row]).collect();
+            let before: Vec<f64> = pivots.iter().map(|&row| column[row]).collect();
             column.copy_from_slice(&before);
         }
         let mut across = MatMut::from_column_major_slice_mut(across, width, beyond);
@@ -190,7 +158,7 @@ impl<T: Precision> Fronts<T> {
             Par::Seq,
         );
         let left = MatMut::from_column_major_slice_mut(&mut rest, beyond, beyond);
-        matmul(left, Accum::Add, under.rb(), across.rb(), T::near(-1.0), Par::Seq);
+        matmul(left, Accum::Add, under.rb(), across.rb(), -1.0, Par::Seq);
         rests.push(Rest { of: s, values: rest });
         Some(())
     }
@@ -201,38 +169,38 @@ impl<T: Precision> Fronts<T> {
         for &s in &self.order {
             let (front, width) = (&self.factors[s], self.tree.list[s].width);
             work.clear();
-            work.extend(front.pivots.iter().map(|&row| T::near(x[front.rows[row]])));
-            work.extend(front.rows[width..].iter().map(|&row| T::near(x[row])));
+            work.extend(front.pivots.iter().map(|&row| x[front.rows[row]]));
+            work.extend(front.rows[width..].iter().map(|&row| x[row]));
             for (k, column) in front.values.chunks_exact(work.len()).take(width).enumerate() {
                 let (solved, others) = work.split_at_mut(k + 1);
                 less(others, solved[k], &column[k + 1..]);
             }
-            front.rows.iter().zip(&work).for_each(|(&row, v)| x[row] = v.wide());
+            front.rows.iter().zip(&work).for_each(|(&row, v)| x[row] = *v);
         }
         for &s in self.order.iter().rev() {
             let (front, width) = (&self.factors[s], self.tree.list[s].width);
             let size = front.rows.len();
             work.clear();
-            work.extend(front.rows[..width].iter().map(|&row| T::near(x[row])));
+            work.extend(front.rows[..width].iter().map(|&row| x[row]));
             let (columns, across) = front.values.split_at(width * size);
             for (&row, column) in front.rows[width..].iter().zip(across.chunks_exact(width)) {
-                less(&mut work, T::near(x[row]), column);
+                less(&mut work, x[row], column);
             }
             for (k, column) in columns.chunks_exact(size).enumerate().rev() {
                 work[k] = work[k] / column[k];
                 let (others, solved) = work.split_at_mut(k);
                 less(others, solved[0], &column[..k]);
             }
-            front.rows.iter().zip(&work).for_each(|(&row, v)| x[row] = v.wide());
+            front.rows.iter().zip(&work).for_each(|(&row, v)| x[row] = *v);
         }
     }
 }
 
-fn less<T: Precision>(to: &mut [T], by: T, column: &[T]) {
+fn less(to: &mut [f64], by: f64, column: &[f64]) {
     to.iter_mut().zip(column).for_each(|(to, v)| *to -= by * *v);
 }
 
-impl<T: Precision> Factors for Fronts<T> {
+impl Factors for Fronts {
     fn solve(&self, x: &mut [Vector6<f64>]) {
         let mut flat: Vec<f64> = x.iter().flat_map(|v| v.iter().copied()).collect();
         Self::solve(self, &mut flat);
@@ -281,11 +249,11 @@ mod tests {
         let right: Vec<Vector6<f64>> =
             right.chunks_exact(6).map(Vector6::from_column_slice).collect();
         let matrix = Blocks::new(&pattern, &lower, &upper);
-        let mut fronts = Fronts::<f32>::new(&pattern).unwrap();
+        let mut fronts = Fronts::new(&pattern).unwrap();
         assert!(!fronts.ready);
         assert!(fronts.factor(&lower, &upper));
         assert!(fronts.ready);
-        // Single precision leaves little to find.
+        // Little is left to find.
         let got = matrix.solve(&fronts, &right, 1e-12, 12).unwrap();
         for (a, b) in got.iter().zip(x.chunks_exact(6)) {
             assert!((a - Vector6::from_column_slice(b)).norm() < 1e-8, "{a} {b:?}");

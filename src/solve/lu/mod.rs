@@ -22,7 +22,7 @@ const CORRECTIONS: usize = 3;
 /// serve, among all of a column. One thread, so that the same matrix always has the same factors.
 pub struct Lu {
     pattern: Pattern,
-    fronts: Option<Fronts<f64>>,
+    fronts: Option<Fronts>,
     whole: Option<Whole>,
 }
 
@@ -75,7 +75,7 @@ struct Matrix<'a> {
 
 impl Matrix<'_> {
     /// The solution by factors, corrected; `None` where it stays off.
-    fn solved(&self, fronts: &Fronts<f64>, right: &[f64]) -> Option<Vec<f64>> {
+    fn solved(&self, fronts: &Fronts, right: &[f64]) -> Option<Vec<f64>> {
         let mut x = right.to_vec();
         fronts.solve(&mut x);
         let (mut left, mut off) = self.left(&x, right);
