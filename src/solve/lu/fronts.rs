@@ -187,7 +187,7 @@ impl Fronts {
                 less(&mut work, x[row], column);
             }
             for (k, column) in columns.chunks_exact(size).enumerate().rev() {
-                work[k] = work[k] / column[k];
+                work[k] /= column[k];
                 let (others, solved) = work.split_at_mut(k);
                 less(others, solved[0], &column[..k]);
             }
