@@ -6,9 +6,9 @@ mod fronts;
 mod substitution;
 mod tree;
 
+pub use dissection::dissected;
 pub(crate) use tree::Tree;
 
-use dissection::dissected;
 use faer::{
     Conj, MatMut, Par, Side,
     dyn_stack::{MemBuffer, MemStack, StackReq},

@@ -4,14 +4,16 @@
 mod clarabel;
 pub(crate) mod coulomb;
 mod engine;
+mod fronts;
 mod interior;
 mod krylov;
 mod lu;
 mod watched;
 
 pub use self::{
+    fronts::Fronts,
     krylov::Blocks,
-    lu::{Fronts, Lu},
+    lu::Lu,
     watched::{Session, solve},
 };
 

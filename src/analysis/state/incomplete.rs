@@ -1,5 +1,5 @@
-//! Equations of heaps by incomplete factors, and where those do not serve by complete ones,
-//! which are kept as long as they do.
+//! Equations of heaps by incomplete factors, and where those do not serve by complete ones of single
+//! precision, which are kept as long as they do.
 
 use super::equations::Equations;
 use crate::{
@@ -70,13 +70,13 @@ pub fn completed(
         return Some(flat(x));
     }
     if fronts.is_none() {
-        *fronts = Fronts::new(pattern);
+        *fronts = Fronts::new(pattern, &matrix);
     }
     let fronts = fronts.as_mut()?;
-    if !fronts.factor(&equations.lower, &equations.upper) {
+    if !fronts.factor(&matrix) {
         return None;
     }
-    // Pivots of fronts may not serve for more than a rough solution: better that than none.
+    // Single precision may not serve for more than a rough solution: better that than none.
     let close = matrix.solve(fronts, &right, share, SOME);
     close.or_else(|| matrix.solve(fronts, &right, share.max(BY_OLD), PRODUCTS)).map(flat)
 }

@@ -4,9 +4,8 @@
 mod fronts;
 mod whole;
 
-pub use fronts::Fronts;
-
 use super::Pattern;
+use fronts::Fronts;
 use whole::Whole;
 
 /// What is left of a row, in what its terms and its right side come to, before it is corrected. More: more
