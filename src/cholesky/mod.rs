@@ -43,8 +43,8 @@ impl Pattern {
     }
 }
 
-/// Rows from which nested dissection of symmetric matrices is tried beside approximate minimum degree. Fewer: time for
-/// what is factored in less. More: heaps in space take twice as long.
+/// Rows from which nested dissection of symmetric matrices is tried beside approximate minimum degree.
+/// Fewer: time for what is factored in less. More: heaps in space take twice as long.
 const LARGE: usize = 6_000;
 
 /// Operations an entry of the factor, in units of 40, from which it is factored in blocks of columns.

@@ -4,8 +4,8 @@
 //!
 //! Pivots are chosen within the panels of a front alone, and factors have single precision: they serve
 //! [`Blocks::solve`], which finds what they miss. Those in double precision are in `lu/fronts.rs`: in their
-//! place here they take half as long again and more memory, and lose heaps (2,870 spheres at μ = 0.6); with
-//! the dense factors of `faer` in single precision the Python package gets too large.
+//! place here they take a fifth more time and memory (2,870 spheres at μ = 0.5) and lose heaps (at μ = 0.6);
+//! with the dense factors of `faer` in single precision the Python package gets too large.
 
 use super::{
     Pattern,

@@ -193,7 +193,7 @@ fn lowered(scene: &Scene, mut contacts: Contacts, control: &Control, answer: &mu
 
 /// What solves the programs where Coulomb's law itself does not, the first one that gives any numbers:
 /// of large scenes in space the engine on the stiffness matrix, which takes a third of the time (the
-/// Armadillo Vault), but knows no joints that crush or take any tension, and no live load on a few blocks.
+/// Armadillo Vault), but knows no joints that crush or take any tension (checked), and no live load on a few blocks.
 fn engines(contacts: &Contacts) -> &'static [EngineSettings] {
     const ALL: [EngineSettings; 2] = [EngineSettings::Interior, EngineSettings::clarabel(1e-9)];
     let statics = &contacts.statics;
@@ -309,7 +309,6 @@ mod tests {
             some.into_iter().for_each(|i| assembly.live[i].force = Vector3::new(1e4, 2e3, 0.0));
             let contacts =
                 Contacts::new(&model, StaticsOptions { live: true, ..Default::default() });
-
             assert_eq!(engines(&contacts).len(), 2);
             let associative = limit(&model, &control);
             let answer = complementary(&model, &associative, &control);

@@ -33,8 +33,8 @@ impl Lu {
         Some(Self { pattern: lower.clone(), fronts, whole: None })
     }
 
-    /// The same with pivots among all rows of a column always: for matrices of which rounding makes a direction that
-    /// nothing resists (rounding of fronts moves what stands beside a block that slides).
+    /// The same with pivots among all rows of a column always: for matrices of which rounding makes a
+    /// direction that nothing resists (rounding of fronts moves what stands beside a block that slides).
     pub fn whole(lower: &Pattern) -> Option<Self> {
         Some(Self { pattern: lower.clone(), fronts: None, whole: Some(Whole::new(lower)?) })
     }
