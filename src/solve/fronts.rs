@@ -275,12 +275,12 @@ fn below(matrix: &Blocks, order: &[usize], place: &[usize], parent: &[usize]) ->
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
 
-    /// A lattice of blocks in space, unsymmetric and not definite: what was multiplied comes back.
-    #[test]
-    fn what_was_multiplied_comes_back() {
+    /// A lattice of blocks in space, unsymmetric and not definite: its pattern, the values below and above
+    /// the diagonal, some numbers, and what it makes of them.
+    pub fn lattice() -> (Pattern, [Vec<f64>; 2], [Vec<f64>; 2]) {
         let side = 5;
         let n = side * side * side;
         let mut pattern = Pattern { starts: vec![0], rows: Vec::new() };
@@ -312,6 +312,12 @@ mod tests {
                 }
             }
         }
+        (pattern, [lower, upper], [x, right])
+    }
+
+    #[test]
+    fn what_was_multiplied_comes_back() {
+        let (pattern, [lower, upper], [x, right]) = lattice();
         let right: Vec<Vector6<f64>> =
             right.chunks_exact(6).map(Vector6::from_column_slice).collect();
         let matrix = Blocks::new(&pattern, &lower, &upper);

@@ -199,46 +199,16 @@ fn less(to: &mut [f64], by: f64, column: &[f64]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::solve::fronts::tests::lattice;
 
-    /// A lattice of blocks in space, unsymmetric and not definite: what was multiplied comes back.
     #[test]
     fn what_was_multiplied_comes_back() {
-        let side = 5;
-        let n = side * side * side;
-        let mut pattern = Pattern { starts: vec![0], rows: Vec::new() };
-        let (mut lower, mut upper) = (Vec::new(), Vec::new());
-        for k in 0..n {
-            let steps = [(1, k), (side, k / side), (side * side, k / (side * side))];
-            let others: Vec<usize> =
-                steps.iter().filter(|s| s.1 % side + 1 < side).map(|s| k + s.0).collect();
-            for c in 0..6 {
-                let own = 6 * k + c;
-                for row in (own..6 * k + 6).chain(others.iter().flat_map(|o| 6 * o..6 * o + 6)) {
-                    let value = ((row * 7 + own * 3) % 11) as f64 / 30.0;
-                    let diagonal = if k % 3 == 0 { -3.0 } else { 3.0 };
-                    pattern.rows.push(row);
-                    lower.push(if row == own { diagonal } else { -value });
-                    upper.push(if row == own { diagonal } else { 0.5 * value });
-                }
-                pattern.starts.push(pattern.rows.len());
-            }
-        }
-        let x: Vec<f64> = (0..6 * n).map(|i| (i % 13) as f64 - 6.0).collect();
-        let mut right = vec![0.0; 6 * n];
-        for column in 0..6 * n {
-            for e in pattern.starts[column]..pattern.starts[column + 1] {
-                let row = pattern.rows[e];
-                right[row] += lower[e] * x[column];
-                if row != column {
-                    right[column] += upper[e] * x[row];
-                }
-            }
-        }
+        let (pattern, [lower, upper], [x, mut right]) = lattice();
         let mut fronts = Fronts::new(&pattern).unwrap();
         assert!(fronts.factor(&lower, &upper));
         fronts.solve(&mut right);
         for (a, b) in right.iter().zip(&x) {
-            assert!((a - b).abs() < 1e-10, "{a} {b:?}");
+            assert!((a - b).abs() < 1e-10, "{a} {b}");
         }
     }
 }
