@@ -36,10 +36,9 @@ pub enum FrictionLimits<'a> {
     Held(HeldQuantity, &'a [f64]),
     /// Coulomb's law: the normal force of the same rates.
     Law,
-    /// The same with its corners rounded: gap × pressure is the square of this share of the load
-    /// that presumably passes, instead of nothing, and friction turns from sticking to sliding over
-    /// forces of that size. Points without friction have the mean load for theirs.
-    Rounded(f64),
+    /// The same where contacts remember how they came to be: rates count from there, and this is what
+    /// each column wants without any ([`Response::memory`]).
+    Since(&'a [f64]),
 }
 
 /// What contacts answer, and how that changes.
@@ -50,29 +49,17 @@ pub struct Answer<const N: usize> {
     pub imbalance: Vec<f64>,
     /// `∂g/∂q`, lower triangle and upper one, entry by entry its mirror image.
     pub triangles: [Vec<f64>; N],
-    /// How `g` changes with the logarithm of the rounding of corners; empty where none are rounded, and without triangles.
-    pub by_rounding: Vec<f64>,
-}
-
-/// How the forces of a point change with what they want (`by_wanted[i][j]`: column `i` with that of `j`)
-/// and with the rounding of corners.
-#[derive(Default)]
-struct Slopes {
-    by_wanted: [[f64; MOST]; MOST],
-    by_rounding: [f64; MOST],
 }
 
 impl<'a> FrictionLimits<'a> {
     /// The same for the discs of one point.
-    fn of(self, contacts: &Contacts, joint: &Joint, point: &SlidingPoint) -> Self {
+    fn of(self, joint: &Joint, point: &SlidingPoint) -> Self {
         match self {
             Self::Held(quantity, held) => {
                 Self::Held(quantity, &held[joint.disc..joint.disc + point.discs.len()])
             }
-            Self::Rounded(by) if !point.discs.is_empty() => {
-                Self::Rounded(by * contacts.passing[joint.disc])
-            }
-            Self::Law | Self::Rounded(_) => self,
+            Self::Since(memory) => Self::Since(&memory[point.column..point.column + point.columns]),
+            Self::Law => self,
         }
     }
 }
@@ -196,6 +183,35 @@ impl Response {
         (forces, imbalance)
     }
 
+    /// What contacts want where they are after these rates, with these forces, having wanted `memory`
+    /// before: what presses does so by how far the blocks have come in all, and friction holds on where
+    /// it is.
+    pub fn memory(
+        &self,
+        contacts: &Contacts,
+        memory: &[f64],
+        q: &[f64],
+        forces: &[f64],
+    ) -> Vec<f64> {
+        let mut next = forces.to_vec();
+        for (joint, point) in self.joints.iter().zip(&contacts.points) {
+            let first = point.column;
+            if point.discs.iter().any(|disc| disc.first == first) {
+                next[first] -= point.rest;
+                continue;
+            }
+            let all = contacts.compliance[first] * contacts.column_images[first];
+            next[first] = memory[first];
+            for (rows, part) in joint.blocks.iter().zip(joint.first) {
+                for (part, q) in self.operator.get(part).into_iter().flatten().zip(&q[rows.clone()])
+                {
+                    next[first] -= part * q / all;
+                }
+            }
+        }
+        next
+    }
+
     /// The same with `∂g/∂q`: nothing of it, its lower triangle in the order of [`Self::pattern`], or its
     /// upper one as well, which differs under Coulomb's law.
     pub fn answer<const N: usize>(
@@ -235,15 +251,13 @@ impl Response {
                 values[*start] = epsilon / n;
             }
         }
-        let is_rounded = N > 0 && matches!(friction, FrictionLimits::Rounded(_));
-        let mut by_rounding = vec![0.0; if is_rounded { q.len() } else { 0 }];
         // Points between the same two blocks follow one another.
         let pairs = self.joints.chunk_by(|a, b| a.blocks == b.blocks);
         let mut points = contacts.points.iter();
         for joints in pairs {
             let Some(Joint { blocks, after, .. }) = joints.first() else { continue };
             let rates: [[f64; R]; 2] = std::array::from_fn(|side| first(&q[blocks[side].clone()]));
-            let mut given = [[[0.0; R]; 2]; 2];
+            let mut given = [[0.0; R]; 2];
             let mut squares = [[[[0.0; R]; R]; 3]; N];
             for (joint, point) in joints.iter().zip(&mut points) {
                 let (n, c) = (point.columns, contacts.compliance[point.column]);
@@ -253,30 +267,21 @@ impl Response {
                     &self.operator[joint.first[side]..joint.first[side] + count]
                 });
                 let mut f = wanted(parts, &rates, all);
-                let friction = friction.of(contacts, joint, point);
-                let mut slopes = Slopes::default();
-                let wants = (N > 0).then_some(&mut slopes);
-                answer(point, c, friction, &mut f, wants);
+                let mut slope = [[0.0; MOST]; MOST];
+                let wants = (N > 0).then_some(&mut slope);
+                answer(point, c, friction.of(joint, point), &mut f, wants);
                 forces[point.column..point.column + n].copy_from_slice(&f[..n]);
-                give(parts, &f, &mut given[0]);
+                give(parts, &f, &mut given);
                 if N == 0 {
                     continue;
                 }
-                if let FrictionLimits::Rounded(by) = friction {
-                    slopes.by_rounding.iter_mut().for_each(|s| *s *= by);
-                    give(parts, &slopes.by_rounding, &mut given[1]);
-                }
-                let slope = &mut slopes.by_wanted;
                 slope.iter_mut().take(n).flat_map(|row| &mut row[..n]).for_each(|s| *s /= all);
                 if slope.iter().take(n).flat_map(|row| &row[..n]).any(|s| *s != 0.0) {
-                    add(parts, slope, &mut squares);
+                    add(parts, &slope, &mut squares);
                 }
             }
             for (side, rows) in blocks.iter().enumerate() {
-                take_off(&mut imbalance[rows.clone()], &given[0][side]);
-                if is_rounded {
-                    take_off(&mut by_rounding[rows.clone()], &given[1][side]);
-                }
+                take_off(&mut imbalance[rows.clone()], &given[side]);
             }
             for (values, squares) in triangles.iter_mut().zip(&squares) {
                 for ([other, side], square) in PAIRS.iter().zip(squares) {
@@ -294,7 +299,7 @@ impl Response {
                 }
             }
         }
-        Answer { forces, imbalance, triangles, by_rounding }
+        Answer { forces, imbalance, triangles }
     }
 }
 
@@ -365,24 +370,23 @@ fn add<const R: usize, const N: usize>(
     }
 }
 
-/// Makes of what a point wants the nearest forces that it may have, and with `slopes` how they change.
+/// Makes of what a point wants the nearest forces that it may have, and with `slope` how they change.
 fn answer(
     point: &SlidingPoint,
     c: f64,
     friction: FrictionLimits,
     f: &mut [f64; MOST],
-    mut slopes: Option<&mut Slopes>,
+    mut slope: Option<&mut [[f64; MOST]; MOST]>,
 ) {
+    if let FrictionLimits::Since(memory) = friction {
+        f.iter_mut().zip(memory).for_each(|(f, m)| *f += m);
+    }
     f[0] += point.rest;
-    if let Some(slopes) = slopes.as_deref_mut() {
-        for (k, row) in slopes.by_wanted.iter_mut().enumerate().take(point.columns) {
+    if let Some(slope) = slope.as_deref_mut() {
+        for (k, row) in slope.iter_mut().enumerate().take(point.columns) {
             row[k] = 1.0;
         }
     }
-    if let FrictionLimits::Rounded(by) = friction {
-        return rounded(point, by, f, slopes);
-    }
-    let mut slope = slopes.map(|slopes| &mut slopes.by_wanted);
     if let (FrictionLimits::Held(HeldQuantity::SlidingRates, &[rate, ..]), Some(disc)) =
         (friction, point.discs.first().filter(|d| d.slope > 0.0))
     {
@@ -409,11 +413,11 @@ fn answer(
         let s = match friction {
             FrictionLimits::Held(HeldQuantity::Limits, held) => held.get(k).copied().unwrap_or(0.0),
             FrictionLimits::Held(HeldQuantity::SlidingRates, _) => disc.constant,
-            FrictionLimits::Law | FrictionLimits::Rounded(_) => disc.limit(f[0]),
+            FrictionLimits::Law | FrictionLimits::Since(_) => disc.limit(f[0]),
         };
         let at = disc.first - point.column..disc.first - point.column + disc.count;
         let cut = onto_disc(f, at.clone(), s, slope.as_deref_mut());
-        if let (FrictionLimits::Law, true, Some(slope)) =
+        if let (FrictionLimits::Law | FrictionLimits::Since(_), true, Some(slope)) =
             (friction, cut && s > 0.0 && disc.slope > 0.0, slope.as_deref_mut())
         {
             let normal = slope[0][0];
@@ -421,59 +425,6 @@ fn answer(
                 slope[i][0] = disc.slope * normal * f[i] / s;
             }
         }
-    }
-}
-
-/// Of two sides; in units of the loads nothing is so large or small that squares would not do, and
-/// `hypot` takes a quarter of the time of all that is done here.
-fn length(a: f64, b: f64) -> f64 {
-    (a * a + b * b).sqrt()
-}
-
-/// The forces of a point where Coulomb's law has corners rounded by `by`, a force.
-fn rounded(point: &SlidingPoint, by: f64, f: &mut [f64; MOST], mut slopes: Option<&mut Slopes>) {
-    // How the first force changes with what it wants, and with `by`.
-    let (mut normal, mut normal_by) = (1.0, 0.0);
-    if point.tension.is_finite() {
-        let above = f[0] + point.tension;
-        let root = length(above, 2.0 * by);
-        f[0] = 0.5 * (above + root) - point.tension;
-        normal = 0.5 * (1.0 + above / root);
-        normal_by = 2.0 * by / root;
-    }
-    if f[0] > point.most {
-        f[0] = point.most;
-        (normal, normal_by) = (0.0, 0.0);
-    }
-    if let Some(slopes) = slopes.as_deref_mut() {
-        slopes.by_wanted[0][0] = normal;
-        slopes.by_rounding[0] = normal_by;
-    }
-    for disc in &point.discs {
-        let at = disc.first - point.column..disc.first - point.column + disc.count;
-        let s = disc.limit(f[0]);
-        let size = (f[at.clone()].iter().map(|v| v * v).sum::<f64>() + by * by).sqrt();
-        let over = size - s;
-        let root = length(over, 2.0 * by);
-        // The greater of the two, rounded.
-        let greater = 0.5 * (size + s + root);
-        let share = s / greater;
-        if let Some(slopes) = slopes.as_deref_mut() {
-            let (by_size, by_limit) = (0.5 * (1.0 + over / root), 0.5 * (1.0 - over / root));
-            let limit_by = disc.slope * normal_by;
-            let greater_by = by_size * by / size + by_limit * limit_by + 2.0 * by / root;
-            let share_by = (limit_by - share * greater_by) / greater;
-            let each = by_size / (greater * size);
-            for i in at.clone() {
-                let slope = &mut slopes.by_wanted[i];
-                slope[0] = disc.slope * normal * f[i] * (1.0 - share * by_limit) / greater;
-                for j in at.clone() {
-                    slope[j] = share * (f64::from(u8::from(i == j)) - each * f[i] * f[j]);
-                }
-                slopes.by_rounding[i] = f[i] * share_by;
-            }
-        }
-        f[at].iter_mut().for_each(|v| *v *= share);
     }
 }
 

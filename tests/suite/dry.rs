@@ -581,9 +581,10 @@ fn scenes_that_were_left_open_have_an_answer() {
         assert_eq!((dry.found, dry.value), (Found::RestsBelow, Some(0.0)), "{seed} {index}");
     }
     // States that neither friction limits nor descents of the imbalance lead to; and what falls, as
-    // its own proof says, though a bound was found.
+    // its own proof says, though a bound was found. (88002, 312) is none of them any more: its joints
+    // stick and slip by turns, and what moves slows down.
     for (seed, index) in
-        [(88002, 312), (88001, 182), (88002, 217), (88002, 476), (99001, 292), (99001, 357)]
+        [(88001, 182), (88002, 217), (88002, 476), (99001, 292), (99001, 357), (99001, 132)]
     {
         let scene = cross::scene(seed, index).unwrap().0;
         let held = ask::asked(&scene, &Question::Limit(LimitOptions::default()));

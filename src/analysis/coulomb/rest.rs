@@ -62,9 +62,9 @@ const WITHOUT_END: [f64; 3] = [0.1, 1.0, 10.0];
 /// Most states asked while halving. Fewer: the value is known to fewer digits than
 /// [`tolerance::DRY_CRITICAL_WIDTH`].
 const MOST: usize = 40;
-/// Most pairs of states of slow scenes. Fewer: as there. More: half a minute for digits that mean
-/// little where each state takes ten seconds.
-const MOST_OF_SLOW: usize = 5;
+/// Most pairs of states of slow scenes: what is between them is then a 81st of what it was. Fewer: as
+/// there. More: six seconds each for digits that mean little (Armadillo Vault).
+const MOST_OF_SLOW: usize = 4;
 
 /// Most states that stay undecided where none was seen to move: without one there is no value, only
 /// how far it was seen at rest. While halving so many more, but for more than [`MANY`] free blocks.
@@ -75,10 +75,6 @@ const MOST_OPEN: usize = 4;
 /// work of the dearest that came out. Less: states are given up that would rest. More: a minute for
 /// three next to where a dome of 145 blocks moves, of which one would be told (21.3918° for 21.3829°).
 const DEARER: usize = 2;
-
-/// Steps up from a state at rest in slow scenes, where nothing was seen to move: two are asked at a
-/// time. Longer: farther from the limit. Shorter: more of them.
-const STEP_UP: f64 = 1.0 + tolerance::REST_WITHIN;
 
 /// So many states on the way are asked at a time. More: those above one that moves are asked in
 /// vain. Fewer: threads wait.
@@ -238,7 +234,7 @@ impl Probe<'_> {
             if self.is_hopeless() || above - rests <= width * above.abs() {
                 break;
             }
-            if !self.ask_all(&between(rests, above, width, self.is_slow)) {
+            if !self.ask_all(&between(rests, above, self.is_slow)) {
                 return false;
             }
         }
@@ -434,18 +430,10 @@ fn climb(
     (answer.natural_map, answer.natural_map_in_loads) = (f64::INFINITY, f64::INFINITY);
 }
 
-/// Where to ask between rest and what does not rest, until they are this near.
-fn between(rests: f64, above: f64, width: f64, is_slow: bool) -> Vec<f64> {
+/// Where to ask between rest and what does not rest.
+fn between(rests: f64, above: f64, is_slow: bool) -> Vec<f64> {
     let third = (above - rests) / 3.0;
-    match is_slow {
-        false => vec![0.5 * (rests + above)],
-        // A tenth is enough, and what does not rest is dearer than what does.
-        true if width >= tolerance::REST_WITHIN && rests > 0.0 => {
-            let up = [STEP_UP * rests, STEP_UP * STEP_UP * rests];
-            up.into_iter().filter(|at| *at < above).collect()
-        }
-        true => vec![rests + third, above - third],
-    }
+    if is_slow { vec![rests + third, above - third] } else { vec![0.5 * (rests + above)] }
 }
 
 /// Whether what lies between rest and motion is as little as a value says. Pairs of slow scenes may
@@ -495,25 +483,6 @@ fn rests_below(answer: &mut DryLoadFactor, (rests_at, forces): (f64, &Forces)) {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// As long as rest and the rest are farther apart than is wanted, something between is asked.
-    #[test]
-    fn something_between_is_asked_until_it_is_narrow() {
-        for width in [tolerance::REST_WITHIN, tolerance::REST_BELOW, tolerance::DRY_CRITICAL_WIDTH]
-        {
-            for rests in [0.0, 1e-6, 0.3, 5e3] {
-                for apart in [1.01 * width, 0.05, 0.2, 0.9] {
-                    let above = if rests > 0.0 { rests / (1.0 - apart) } else { apart };
-                    let is_narrow = above - rests <= width * above;
-                    for is_slow in [false, true] {
-                        let at = between(rests, above, width, is_slow);
-                        assert!(is_narrow || !at.is_empty(), "{rests} {above} {width}");
-                        assert!(at.iter().all(|at| (rests..above).contains(at) && *at > rests));
-                    }
-                }
-            }
-        }
-    }
 
     /// A dome of 145 blocks at μ = 0.8: its result was refuted, for at 0.393071 it still rests.
     #[test]

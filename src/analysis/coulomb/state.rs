@@ -6,7 +6,9 @@
 //! is then a motion that obeys Coulomb's law with the forces at hand. *Proved:* a state that moves
 //! is a solution of the law (its natural map is recomputed from the forces). *Computed, not
 //! proved:* that a state at rest is the one the loads produce; rest under a pre-stress and motion
-//! are often both exact solutions.
+//! are often both exact solutions. Where one step of the state's equation leads nowhere, blocks are
+//! followed there as it comes about, in many ([`Exact::flowed`]); friction then holds on wherever they
+//! have slid to, and the loads are put on at once.
 
 use super::crushing::within_strength;
 use crate::{
@@ -76,10 +78,14 @@ const HOPELESS: (f64, usize) = (0.1, 2);
 /// longer for each state of the Armadillo Vault that stays open.
 const HOPELESS_AT_ONCE: usize = 1_000;
 
-/// Curves are followed at once to an ε no larger than this, where that leads anywhere, and the next
-/// branches off. Larger: a curve for each ε (a wall of 40 × 40 has four times the factorisations from
-/// 1e-5 on). Smaller: rounding.
-const FAR: f64 = 1e-8;
+/// Most factorisations of a state that is followed as it comes about, and their rows in all: fewer of
+/// large scenes, where each takes milliseconds. Fewer: what moves is not told, and walls of 400 blocks
+/// that rest are not seen to. More: half a minute for each state that stays open.
+const FACTORS: [usize; 2] = [3_000, 20_000];
+const ROWS: usize = 6_600_000;
+/// A motion is told once time grew by this since the state before. Less: what still slows down passes for
+/// one. More: what goes on and on takes longer.
+const STAYS_FOR: f64 = 3.0;
 
 /// A fixed point is none of the law where it is further from it than so many times the one before
 /// (and than [`tolerance::MOTION_BREACH`]): joints that crush may lead there.
@@ -90,6 +96,11 @@ const MOST_ASTRAY: usize = 3;
 /// An acceleration counts when it is more than this × what unsettled friction can make. Less: noise
 /// that falls passes for rest. More: time lost.
 const NOISE: f64 = 10.0;
+
+/// Most programs of a fixed point with more than [`HOPELESS_AT_ONCE`] rows, which has no twin either:
+/// what it does not settle in so many is followed as it comes about. More: a fifth longer for the
+/// Armadillo Vault.
+const SOLVES_OF_LARGE: usize = 6;
 
 /// When a fixed point has settled.
 const STOP: StoppingCriterion = StoppingCriterion { change: 1e-5, solves: 25 };
@@ -129,31 +140,41 @@ fn continued(model: &Model, control: &Control, (least, most): (f64, usize)) -> S
     answer
 }
 
-/// Curves of rounded laws, as long as they lead anywhere.
+/// The state as it comes about, as long as that leads anywhere.
 #[derive(Default)]
-struct Curves {
-    /// Whether they led nowhere: at the next ε they are much the same.
+struct Following {
+    /// The factorisations it took.
+    factors: usize,
+    /// Whether it led nowhere: at the next ε it is much the same.
     is_lost: bool,
-    /// Whether the last state came from one.
+    /// Whether the last state came from it.
     is_followed: bool,
 }
 
-impl Curves {
-    /// The state at this ε, or at the one that curves are followed to, which is told.
+impl Following {
+    /// The state at this ε, or at one before at which it was seen to move, which is told.
     fn follow(
         &mut self,
         law: &mut Exact,
-        contacts: &Contacts,
+        (model, contacts): (&Model, &Contacts),
+        history: &[Seen],
         epsilon: &mut f64,
         (most, end): (usize, Deadline),
     ) -> Option<(Solved, f64)> {
         if self.is_lost {
             return None;
         }
-        // What moves may be told at a large ε, and not be followed to a small one.
-        let epsilons = [epsilon.min(FAR), *epsilon];
-        let epsilons = if *epsilon > FAR { &epsilons[..] } else { &epsilons[1..] };
-        let (reached, solved) = law.tracked(contacts, epsilons, most, end).unzip();
+        let moves = |at: f64, state: &(Solved, f64)| {
+            let point = by_the_law(contacts, state.clone(), 0);
+            let forces = contacts.statics.forces(&model.interfaces, &point.forces);
+            decide(history, at, &point, &law::motion(model, &forces)) == StateMotion::Moves
+        };
+        let looked = history.last().map_or(0.0, |last| last.epsilon / STAYS_FOR);
+        let asked = (*epsilon, looked);
+        let allowed = (ROWS / contacts.statics.matrix.rows).clamp(FACTORS[0], FACTORS[1]);
+        let (before, most) = (law.factors, most.min(allowed.saturating_sub(self.factors)));
+        let (reached, solved) = law.flowed(contacts, asked, moves, most, end).unzip();
+        self.factors += law.factors - before;
         self.is_followed = solved.is_some();
         self.is_lost = !self.is_followed;
         *epsilon = reached.unwrap_or(*epsilon);
@@ -185,7 +206,7 @@ fn of_part(
     let mut newton = Newton::new(&contacts);
     let mut history: Vec<Seen> = Vec::new();
     let mut trail: Vec<(f64, Vec<f64>)> = Vec::new();
-    let (mut hopeless, mut astray, mut curves) = (0, 0, Curves::default());
+    let (mut hopeless, mut astray, mut following) = (0, 0, Following::default());
     let rows = contacts.statics.matrix.rows;
     let rest = vec![0.0; rows];
     // The associative state is the first guess of the friction limits.
@@ -221,18 +242,23 @@ fn of_part(
             exactly = Some(Exact::new(&contacts));
         }
         let mut exact_solver = exactly.as_mut().and_then(Option::as_mut).filter(|_| is_late);
+        let was_followed = following.is_followed;
         let followed = exact_solver
             .as_mut()
             .filter(|_| from.solves == 0 || from.solves > EASY)
             .and_then(|e| {
-                let branch = std::mem::take(&mut curves.is_followed)
-                    .then(|| curves.follow(e, &contacts, &mut epsilon, end))
+                let along = (!was_followed)
+                    .then(|| e.on(&contacts, &mut trail, epsilon, control.deadline))
                     .flatten();
-                branch
-                    .or_else(|| e.on(&contacts, &mut trail, epsilon, control.deadline))
-                    .or_else(|| curves.follow(e, &contacts, &mut epsilon, end))
+                along.or_else(|| {
+                    following.follow(e, (model, &contacts), &history, &mut epsilon, end)
+                })
             })
             .map(|solved| by_the_law(&contacts, solved, 0));
+        // What came about in time is no start for what asks where it is all at once.
+        if was_followed && followed.is_none() {
+            break;
+        }
         let is_followed = followed.is_some();
         let point = followed.or_else(|| {
             within_strength(&mut contacts, interfaces, |c| {
@@ -256,7 +282,10 @@ fn of_part(
             && let Some(solver) = exactly.as_mut().and_then(Option::as_mut)
             && let Some(solved) =
                 solver.near(&contacts, epsilon, &point.rates, control.deadline).or_else(|| {
-                    is_lost.then(|| curves.follow(solver, &contacts, &mut epsilon, end)).flatten()
+                    let follow = || {
+                        following.follow(solver, (model, &contacts), &history, &mut epsilon, end)
+                    };
+                    is_lost.then(follow).flatten()
                 })
         {
             point = by_the_law(&contacts, solved, point.solves);
@@ -264,7 +293,7 @@ fn of_part(
             moved = law::motion(model, &forces);
         }
         reached = epsilon;
-        answer.from_afar |= curves.is_followed || curves.is_lost;
+        answer.from_afar |= following.is_followed || following.is_lost;
         let decided = decide(&history, epsilon, &point, &moved);
         answer.steps.push(StateStep {
             epsilon,
@@ -313,12 +342,13 @@ fn of_part(
             }
         }
         let is_unsettled = history.last().is_some_and(|s| s.change > HOPELESS.0);
-        let was_tried = history.len() > BEFORE_EXACT || curves.is_lost;
+        let was_tried = history.len() > BEFORE_EXACT || following.is_lost;
         hopeless = if is_unsettled && was_tried { hopeless + 1 } else { 0 };
-        let is_dear = curves.is_lost && rows > HOPELESS_AT_ONCE;
+        let is_dear = following.is_lost && rows > HOPELESS_AT_ONCE;
         if hopeless == if is_dear { 1 } else { HOPELESS.1 }
             || (answer.motion == StateMotion::Rests && epsilon <= least)
-            || (answer.motion == StateMotion::Moves && exact <= tolerance::NATURAL_MAP)
+            || (answer.motion == StateMotion::Moves
+                && (exact <= tolerance::NATURAL_MAP || following.is_followed))
         {
             break;
         }
@@ -349,6 +379,7 @@ fn settled(
     settings: &Settings,
 ) -> Option<FixedPoint> {
     let objective = Objective::State(epsilon);
+    let is_large = contacts.statics.matrix.rows > HOPELESS_AT_ONCE;
     let breach = |point: &FixedPoint| {
         let forces = contacts.statics.forces(&model.interfaces, &point.forces);
         law::motion(model, &forces).natural_map_in_loads
@@ -363,10 +394,10 @@ fn settled(
         objective,
         HeldQuantity::Limits,
         contacts.limits(&from.forces),
-        STOP,
+        StoppingCriterion { solves: if is_large { SOLVES_OF_LARGE } else { STOP.solves }, ..STOP },
         solvers,
     )?;
-    if by_limits.change <= tolerance::COULOMB_SETTLED {
+    if by_limits.change <= tolerance::COULOMB_SETTLED || is_large {
         return Some(by_limits);
     }
     let sliding = contacts.sliding(&contacts.joint_rates(&by_limits.rates));

@@ -42,7 +42,11 @@ pub fn motion(model: &Model, control: &Control) -> StateMotion {
     let all: Vec<usize> = (0..parts.len()).collect();
     let own = each(&parts, &all, control, |k, control| {
         let part = &parts[k].model;
-        if is_forest(part) { StateMotion::Rests } else { state(part, control).motion }
+        // Nothing there can be wedged: what does not move rests, however far it bends.
+        match state(part, control).motion {
+            StateMotion::Undecided if is_forest(part) => StateMotion::Rests,
+            motion => motion,
+        }
     });
     let is = |motion| own.contains(&motion);
     [StateMotion::Moves, StateMotion::Undecided]

@@ -9,7 +9,7 @@
 //! near, and following it there ([`Exact::on`]) costs milliseconds where the fixed point on 164
 //! blocks of a bridge takes tenths of a second.
 
-use super::{newton::Solved, place::Trunk};
+use super::{newton::Solved, place::Place};
 use crate::{
     deadline::Deadline,
     program::{
@@ -54,8 +54,8 @@ pub struct Exact {
     carried: Vec<f64>,
     /// How many matrices it has factored.
     pub factors: usize,
-    /// What the next curve of rounded laws has in common with the last one.
-    pub(super) trunk: Trunk,
+    /// Where the state came to as it came about.
+    pub(super) place: Place,
 }
 
 impl Exact {
@@ -72,7 +72,7 @@ impl Exact {
             lu,
             carried: contacts.carried(),
             factors: 0,
-            trunk: Trunk::default(),
+            place: Place::default(),
         })
     }
 
@@ -132,7 +132,7 @@ impl Exact {
         self.solve(&triangles, imbalance.iter().map(|g| -g).collect())
     }
 
-    /// Solves with a derivative of the imbalance, for one or two right-hand sides.
+    /// Solves with a derivative of the imbalance.
     pub(super) fn solve(
         &mut self,
         [lower, upper]: &[Vec<f64>; 2],

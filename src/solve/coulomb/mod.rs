@@ -3,18 +3,18 @@
 //!
 //! [`iterate`] holds friction, solves, and holds it anew; each program is solved by [`Newton`] in
 //! the rates where that can be, by an engine where not. [`Exact`] and [`Law`] hold nothing:
-//! Coulomb's law itself, for the state and for the load factor; where none of them gets there, laws
-//! with rounded corners are followed to it (`track`). What any of them finds is a
+//! Coulomb's law itself, for the state and for the load factor; where none of them gets there, the
+//! state is followed as it comes about (`flow`). What any of them finds is a
 //! candidate; [`crate::analysis::coulomb`] asks the questions and decides.
 
 mod anderson;
 mod exact;
 mod fixed_point;
+mod flow;
 mod law;
 mod newton;
 mod place;
 mod point;
-mod track;
 
 pub use anderson::Anderson;
 pub use exact::Exact;

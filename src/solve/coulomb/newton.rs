@@ -54,6 +54,7 @@ pub struct Newton {
 }
 
 /// One solution.
+#[derive(Clone)]
 pub struct Solved {
     /// Forces per column.
     pub forces: Vec<f64>,
@@ -197,8 +198,9 @@ mod tests {
                 FrictionLimits::Held(HeldQuantity::Limits, &held),
                 FrictionLimits::Held(HeldQuantity::SlidingRates, &held),
             );
-            let rounded = FrictionLimits::Rounded(0.2);
-            for (friction, size) in [limits, sliding, FrictionLimits::Law, rounded]
+            let memory = numbers(contacts.compliance.len(), 0.7, 2.0);
+            let since = FrictionLimits::Since(&memory);
+            for (friction, size) in [limits, sliding, FrictionLimits::Law, since]
                 .into_iter()
                 .flat_map(|f| [(f, 0.5), (f, 3.0)])
             {
@@ -207,7 +209,7 @@ mod tests {
                     let q: Vec<f64> = q.iter().zip(&step).map(|(q, s)| q + sign * s).collect();
                     response.forces(contacts, 1e-3, friction, &q).1
                 };
-                let Answer { triangles: [lower, upper], by_rounding, .. } =
+                let Answer { triangles: [lower, upper], .. } =
                     response.answer(contacts, 1e-3, friction, &q);
                 let mut predicted = vec![0.0; n];
                 for column in 0..n {
@@ -227,20 +229,6 @@ mod tests {
                 assert!(
                     norm(&apart) < 1e-5 * norm(&seen),
                     "scene {which} {friction:?} {size}: {} of {}",
-                    norm(&apart),
-                    norm(&seen)
-                );
-                let FrictionLimits::Rounded(by) = friction else { continue };
-                let rounder = |s: f64| {
-                    let friction = FrictionLimits::Rounded(by * s.exp());
-                    response.forces(contacts, 1e-3, friction, &q).1
-                };
-                let seen: Vec<f64> =
-                    rounder(1e-6).iter().zip(rounder(-1e-6)).map(|(a, b)| (a - b) / 2e-6).collect();
-                let apart: Vec<f64> = seen.iter().zip(&by_rounding).map(|(a, b)| a - b).collect();
-                assert!(
-                    norm(&apart) < 1e-7 * norm(&seen),
-                    "scene {which} {size}: {} of {} by rounding",
                     norm(&apart),
                     norm(&seen)
                 );
@@ -280,31 +268,74 @@ mod tests {
     }
 
     #[test]
-    fn a_curve_of_rounded_laws_ends_where_newton_does() {
-        let mut both = 0;
+    fn without_further_rates_contacts_keep_their_forces() {
+        for (which, contacts) in scenes().iter().enumerate() {
+            let response = Response::new(contacts).unwrap();
+            let mut memory = vec![0.0; contacts.compliance.len()];
+            let n = contacts.statics.matrix.rows;
+            for seed in [1.0, 2.0, 3.0] {
+                let q = numbers(n, seed, 2.0);
+                let (forces, _) =
+                    response.forces(contacts, 1e-3, FrictionLimits::Since(&memory), &q);
+                memory = response.memory(contacts, &memory, &q, &forces);
+                let (same, _) =
+                    response.forces(contacts, 1e-3, FrictionLimits::Since(&memory), &vec![0.0; n]);
+                for (a, b) in forces.iter().zip(&same) {
+                    assert!((a - b).abs() < 1e-12 * norm(&forces), "scene {which}: {a} and {b}");
+                }
+                assert!(norm(&forces) > 0.0);
+            }
+        }
+    }
+
+    /// Where nothing slides it is the same whether it came about in time or at once; the drag that is
+    /// left of one step is gone then.
+    #[test]
+    fn what_comes_about_in_time_ends_where_newton_does() {
+        let epsilon = 1e-6;
+        let never = |_: f64, _: &(Solved, f64)| false;
         for (which, contacts) in scenes().iter().enumerate() {
             let mut law = Exact::new(contacts).unwrap();
             let still = vec![0.0; contacts.statics.matrix.rows];
-            for epsilon in [1e-2, 1e-4] {
-                let (_, (afar, left)) =
-                    law.tracked(contacts, &[epsilon], usize::MAX, Deadline::NEVER).unwrap();
-                assert!(left < 1e-4 * epsilon, "scene {which} {epsilon}: {left}");
-                assert!(
-                    law.tracked(contacts, &[epsilon], usize::MAX, Deadline::within(0.0)).is_none()
-                );
-                let Some((near, _)) = law.near(contacts, epsilon, &still, Deadline::NEVER) else {
-                    continue;
-                };
-                both += 1;
-                for (a, b) in afar.forces.iter().zip(&near.forces) {
-                    assert!(
-                        (a - b).abs() < 1e-6 * norm(&near.forces),
-                        "scene {which} {epsilon}: {a} and {b}"
-                    );
-                }
+            let (_, (flowed, left)) =
+                law.flowed(contacts, (epsilon, 0.0), never, usize::MAX, Deadline::NEVER).unwrap();
+            assert!(left < 1e-4 * epsilon, "scene {which}: {left}");
+            let (near, _) = law.near(contacts, epsilon, &still, Deadline::NEVER).unwrap();
+            for (a, b) in flowed.forces.iter().zip(&near.forces) {
+                assert!((a - b).abs() < 1e-4 * norm(&near.forces), "scene {which}: {a} and {b}");
             }
+            let smaller = (0.1 * epsilon, 0.0);
+            let none = law.flowed(contacts, smaller, never, usize::MAX, Deadline::within(0.0));
+            assert!(none.is_none());
         }
-        assert!(both > 4, "{both}");
+    }
+
+    /// A block pushed by nine tenths of its weight at μ = 0.5 goes on with four tenths of it (its load,
+    /// which is the unit, is both); whoever looks may end it.
+    #[test]
+    fn what_slides_goes_on_as_it_does() {
+        let text = r#"{ "format": "voussoir-scene/1", "joints": { "default": { "friction": 0.5 } },
+            "loads": { "dead": [{ "weight": [0.9, 0, 0] }] }, "blocks": [
+            { "id": "base", "support": true, "at": [0, 0, -0.5], "shape": { "box": { "size": [9, 9, 1] } } },
+            { "id": "a", "at": [0, 0, 0.25], "shape": { "box": { "size": [2, 2, 0.5] } } } ] }"#;
+        let model = prepare(&read_str("sliding", text).unwrap().0).unwrap();
+        let mut contacts = Contacts::new(&model, StaticsOptions::default());
+        contacts.by_mass();
+        let mut law = Exact::new(&contacts).unwrap();
+        let far = |rates: &[f64]| rates.iter().fold(0.0, |most: f64, q| most.max(q.abs()));
+        let mut looks = Vec::new();
+        let look = |epsilon: f64, seen: &(Solved, f64)| {
+            looks.push((1.0 / epsilon, far(&seen.0.rates)));
+            looks.len() == 4
+        };
+        let (reached, _) =
+            law.flowed(&contacts, (1e-6, 1e-3), look, usize::MAX, Deadline::NEVER).unwrap();
+        assert_eq!((looks.len(), 1.0 / reached), (4, looks[3].0));
+        assert!(looks[0].0 >= 1e3 && looks[3].0 < 1e6);
+        for pair in looks.windows(2) {
+            let speed = (pair[1].1 - pair[0].1) / (pair[1].0 - pair[0].0);
+            assert!((speed * 1.81_f64.sqrt() - 0.4).abs() < 1e-6, "{speed}");
+        }
     }
 
     #[test]
