@@ -41,7 +41,7 @@ pub struct State {
     pub steps: Vec<StateStep>,
     /// Contact forces of the last step, N.
     pub forces: Forces,
-    /// Whether it had to be sought from afar, along a curve of rounded laws: the dearest way.
+    /// Whether it had to be sought from afar, followed as it comes about: the dearest way.
     pub from_afar: bool,
     /// What it took: rows of all matrices that were factored.
     pub work: usize,
@@ -70,11 +70,11 @@ const BEFORE_EXACT: usize = 2;
 const EASY: usize = 4;
 
 /// Friction limits that change by more than this, in the loads that pass there, at so many ε one
-/// after the other, the law itself having been tried or its curve lost, do not settle at smaller
+/// after the other, the law itself having been tried or followed in vain, do not settle at smaller
 /// ones. Less or fewer: states are lost (2 of 993 with one ε, none with two; one of 500 where one was
-/// enough after a lost curve). More: minutes for states that stay open.
+/// enough after that). More: minutes for states that stay open.
 const HOPELESS: (f64, usize) = (0.1, 2);
-/// With more rows than this one such ε is enough after a lost curve. Fewer: see there. More: a quarter
+/// With more rows than this one such ε is enough where it was followed in vain. Fewer: see there. More: a quarter
 /// longer for each state of the Armadillo Vault that stays open.
 const HOPELESS_AT_ONCE: usize = 1_000;
 

@@ -36,16 +36,16 @@ pub fn assess_by(
 }
 
 /// What the state under dry friction does: it rests where that of every part does. A part whose
-/// contacts form no closed chain has none of its own: statics alone fixes its forces.
+/// contacts form no closed chain has none of its own: statics alone fixes its forces, if there are any.
 pub fn motion(model: &Model, control: &Control) -> StateMotion {
     let parts = interface::parts(model);
     let all: Vec<usize> = (0..parts.len()).collect();
     let own = each(&parts, &all, control, |k, control| {
         let part = &parts[k].model;
-        // Nothing there can be wedged: what does not move rests, however far it bends.
-        match state(part, control).motion {
-            StateMotion::Undecided if is_forest(part) => StateMotion::Rests,
-            motion => motion,
+        match is_forest(part) {
+            true if of_part(part, control).verdict == Verdict::Unstable => StateMotion::Moves,
+            true => StateMotion::Rests,
+            false => state(part, control).motion,
         }
     });
     let is = |motion| own.contains(&motion);

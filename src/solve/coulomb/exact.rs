@@ -43,7 +43,8 @@ const MOST_ROWS: usize = 12_000;
 const LEAST_FALL: f64 = 0.9;
 /// Most pushes on the way to one ε. Fewer: such states go back. More: time lost.
 const PUSHES: usize = 40;
-/// Most factorisations of all of them. Fewer: curves are followed that cost more. More: time lost
+/// Most factorisations of all of them. Fewer: states are followed as they come about, which costs more.
+/// More: time lost
 /// (700 of them, 17 s, on a wall of 1,600 blocks).
 const MOST_PUSHED: usize = 100;
 
