@@ -10,8 +10,8 @@
 //! what moves goes on at the rates of a motion that obeys Coulomb's law, for drag and mass are alike.
 //!
 //! One step alone takes friction to oppose how far blocks have slid in all. That law gives energy
-//! away: blocks slide out under little pressure, and are pulled back under much, for ever (voussoirs at
-//! an edge of the Armadillo Vault pushed by a quarter of its weight), and its solutions are hard to
+//! away: blocks slide out under little pressure, and are pulled back under much, for ever (some voussoirs
+//! of the Armadillo Vault pushed by a quarter of its weight), and its solutions are hard to
 //! find where there are any. Here nothing is given away, and steps lead on.
 
 use super::{Exact, Solved, exact::allowed, place::Place};
