@@ -582,7 +582,11 @@ fn scenes_that_were_left_open_have_an_answer() {
     }
     // States that neither friction limits nor descents of the imbalance lead to; and what falls, as
     // its own proof says, though a bound was found. (88002, 312) is none of them any more: its joints
-    // stick and slip by turns, and what moves slows down.
+    // stick and slip by turns, and what moves slows down: no value is claimed of it.
+    let dome = cross::scene(88002, 312).unwrap().0;
+    let held = ask::asked(&dome, &Question::Limit(LimitOptions::default()));
+    let said = held.answer.load_factor().unwrap();
+    assert!(said.value.is_none() && said.status != FactorStatus::Found, "{:?}", said.status);
     for (seed, index) in
         [(88001, 182), (88002, 217), (88002, 476), (99001, 292), (99001, 357), (99001, 132)]
     {

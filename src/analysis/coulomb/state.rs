@@ -74,8 +74,8 @@ const EASY: usize = 4;
 /// ones. Less or fewer: states are lost (2 of 993 with one ε, none with two; one of 500 where one was
 /// enough after that). More: minutes for states that stay open.
 const HOPELESS: (f64, usize) = (0.1, 2);
-/// With more rows than this one such ε is enough where it was followed in vain. Fewer: see there. More: a quarter
-/// longer for each state of the Armadillo Vault that stays open.
+/// With more rows than this one such ε is enough where it was followed in vain. Fewer: see there. More:
+/// a quarter longer for each state of the Armadillo Vault that stays open.
 const HOPELESS_AT_ONCE: usize = 1_000;
 
 /// Most factorisations of a state that is followed as it comes about, and their rows in all: fewer of
@@ -245,7 +245,7 @@ fn of_part(
         let was_followed = following.is_followed;
         let followed = exact_solver
             .as_mut()
-            .filter(|_| from.solves == 0 || from.solves > EASY)
+            .filter(|_| was_followed || from.solves == 0 || from.solves > EASY)
             .and_then(|e| {
                 let along = (!was_followed)
                     .then(|| e.on(&contacts, &mut trail, epsilon, control.deadline))
@@ -294,7 +294,15 @@ fn of_part(
         }
         reached = epsilon;
         answer.from_afar |= following.is_followed || following.is_lost;
-        let decided = decide(&history, epsilon, &point, &moved);
+        let decided = match decide(&history, epsilon, &point, &moved) {
+            // As it comes about, what slows down may go on again: it rests where nothing is left.
+            StateMotion::Rests
+                if following.is_followed && moved.acceleration > tolerance::LEAST_MOTION =>
+            {
+                StateMotion::Undecided
+            }
+            decided => decided,
+        };
         answer.steps.push(StateStep {
             epsilon,
             acceleration: moved.acceleration,
