@@ -6,7 +6,7 @@
 //! Here and not there: faer gathers each supernode from all of its descendants in turn, on one thread
 //! but for the inside of a product.
 
-use super::tree::Tree;
+use super::tree::{Run, Tree};
 use faer::{
     Accum, MatMut, Par,
     dyn_stack::{MemBuffer, MemStack},
@@ -22,11 +22,87 @@ use std::sync::{Mutex, PoisonError};
 /// Operations from which the inside of one front is shared out. Fewer: threads cost more than they do.
 const SHARED: f64 = 3e7;
 
-/// What a front leaves of the rows below its own: a lower triangle, by columns.
-#[derive(Default)]
+/// Places of fronts that are gone which are kept for those to come. More: memory. Fewer: the pages of
+/// each front are asked for anew, which takes longer than to fill them.
+const KEPT: usize = 4;
+
+/// What a front leaves of the rows below its own: a lower triangle, by columns; beyond it anything.
 struct Rest {
     of: usize,
     lower: Vec<f64>,
+}
+
+/// Places of fronts that are gone, for those to come, of the next factors too.
+pub type Room = Mutex<Vec<Vec<f64>>>;
+
+/// What fronts have left that are not gathered yet, the last one last, and places for further ones.
+struct Rests<'a> {
+    list: Vec<Rest>,
+    free: &'a Room,
+}
+
+impl Rests<'_> {
+    /// So many numbers or more, whatever they are.
+    fn place(&mut self, count: usize) -> Result<Vec<f64>, NoFactor> {
+        let mut free = self.free.lock().unwrap_or_else(PoisonError::into_inner);
+        let fits = |&k: &usize| free[k].len() >= count;
+        let least = (0..free.len()).filter(fits).min_by_key(|&k| free[k].len());
+        if let Some(k) = least {
+            return Ok(free.swap_remove(k));
+        }
+        drop(free);
+        let mut place = Vec::new();
+        place.try_reserve_exact(count).map_err(|_| NoFactor)?;
+        place.resize(count, 0.0);
+        Ok(place)
+    }
+
+    /// Gives back the places of what was gathered.
+    fn give(&mut self, gone: Vec<Rest>) {
+        let mut free = self.free.lock().unwrap_or_else(PoisonError::into_inner);
+        free.extend(gone.into_iter().map(|rest| rest.lower));
+        free.sort_by_key(|v| std::cmp::Reverse(v.len()));
+        free.truncate(KEPT);
+    }
+}
+
+/// Some columns of a front.
+struct Strip<'a> {
+    /// The first, counted in the front, and the row that its numbers begin with.
+    first: usize,
+    row: usize,
+    /// Numbers a column.
+    size: usize,
+    values: &'a mut [f64],
+}
+
+impl Strip<'_> {
+    /// Its own lower triangle becomes zero; where rows of the front are left out so does the rest.
+    fn clear(&mut self) {
+        for (k, column) in self.values.chunks_exact_mut(self.size.max(1)).enumerate() {
+            let above = if self.row > 0 { self.first + k - self.row } else { 0 };
+            column[above..].fill(0.0);
+        }
+    }
+
+    /// Adds what is in its columns of what a child left, with so many rows, that stand there.
+    fn add(&mut self, rest: &[f64], rows: usize, into: &[Run]) {
+        let end = self.first + self.values.len() / self.size.max(1);
+        for (k, run) in into.iter().enumerate() {
+            for column in run.to.max(self.first)..(run.to + run.count).min(end) {
+                let j = column - run.to;
+                let from = &rest[(run.from + j) * rows..(run.from + j + 1) * rows];
+                let to = &mut self.values[(column - self.first) * self.size..][..self.size];
+                let add = |from: &[f64], to: &mut [f64]| {
+                    to.iter_mut().zip(from).for_each(|(to, v)| *to += v);
+                };
+                let first = Run { from: run.from + j, to: column, count: run.count - j };
+                for run in std::iter::once(&first).chain(&into[k + 1..]) {
+                    add(&from[run.from..run.from + run.count], &mut to[run.to - self.row..]);
+                }
+            }
+        }
+    }
 }
 
 /// The matrix was not positive definite, or what a front leaves does not fit into memory.
@@ -37,7 +113,7 @@ impl Tree {
     pub fn factor(
         &self,
         matrix: &[f64],
-        factor: &mut [f64],
+        (factor, room): (&mut [f64], &Room),
         regularization: LltRegularization<f64>,
         threads: Par,
     ) -> bool {
@@ -60,25 +136,25 @@ impl Tree {
         let one = |piece: &Mutex<Vec<(usize, &mut [f64])>>| {
             // Nothing is used up: where not all threads could be started, it is done once more.
             let mut own = piece.lock().unwrap_or_else(PoisonError::into_inner);
-            let mut rests = Vec::new();
+            let mut rests = Rests { list: Vec::new(), free: room };
             for (s, columns) in own.iter_mut() {
                 self.eliminate(*s, matrix, columns, &mut rests, regularization, Par::Seq)?;
             }
-            Ok(rests.pop().unwrap_or_default())
+            Ok(rests.list.pop())
         };
         let alone = || pieces.iter().map(&one).collect();
         #[cfg(feature = "solve")]
-        let done: Result<Vec<Rest>, NoFactor> = match threads.degree() {
+        let done: Result<Vec<Option<Rest>>, NoFactor> = match threads.degree() {
             1 => alone(),
             many => crate::parallel::try_map(many, &pieces, one).unwrap_or_else(|_| alone()),
         };
         #[cfg(not(feature = "solve"))]
-        let done: Result<Vec<Rest>, NoFactor> = alone();
+        let done: Result<Vec<Option<Rest>>, NoFactor> = alone();
         let Ok(mut done) = done else { return false };
-        let mut rests = Vec::new();
+        let mut rests = Rests { list: Vec::new(), free: room };
         self.above.iter().all(|&s| {
             if let Some(piece) = self.piece[s] {
-                rests.push(std::mem::take(&mut done[piece]));
+                rests.list.extend(done[piece].take());
                 return true;
             }
             let threads = if self.list[s].work < SHARED { Par::Seq } else { threads };
@@ -93,30 +169,32 @@ impl Tree {
         s: usize,
         matrix: &[f64],
         columns: &mut [f64],
-        rests: &mut Vec<Rest>,
+        rests: &mut Rests<'_>,
         regularization: LltRegularization<f64>,
         threads: Par,
     ) -> Result<(), NoFactor> {
         let front = &self.list[s];
         let (width, size) = (front.width, front.size);
         let below = size - width;
-        columns.fill(0.0);
+        let mut place = rests.place(below * below)?;
+        let rest = &mut place[..below * below];
+        let children = rests.list.split_off(rests.list.len() - front.children);
+        let gather = |mut strip: Strip<'_>| {
+            strip.clear();
+            for child in &children {
+                let from = &self.list[child.of];
+                strip.add(&child.lower, from.size - from.width, &from.into);
+            }
+        };
+        let own = Strip { first: 0, row: 0, size, values: &mut *columns };
+        let others = Strip { first: width, row: width, size: below, values: &mut *rest };
+        match threads.degree() {
+            1 => [own, others].into_iter().for_each(gather),
+            many => on_threads([own, others], many, gather),
+        }
+        rests.give(children);
         for &(e, at) in &front.entries {
             columns[at] += matrix[e];
-        }
-        let mut rest = Vec::new();
-        rest.try_reserve_exact(below * below).map_err(|_| NoFactor)?;
-        rest.resize(below * below, 0.0);
-        for child in rests.drain(rests.len() - front.children..) {
-            let into = &self.list[child.of].into;
-            for (j, &column) in into.iter().enumerate() {
-                let from = &child.lower[j * into.len() + j..(j + 1) * into.len()];
-                let (to, first) = match column.checked_sub(width) {
-                    None => (&mut columns[column * size..(column + 1) * size], 0),
-                    Some(k) => (&mut rest[k * below..(k + 1) * below], width),
-                };
-                into[j..].iter().zip(from).for_each(|(row, v)| to[row - first] += v);
-            }
         }
         let columns = MatMut::from_column_major_slice_mut(columns, size, width);
         let (mut own, mut lower) = columns.split_at_row_mut(width);
@@ -127,7 +205,7 @@ impl Tree {
             .map_err(|_| NoFactor)?;
         solve_lower_triangular_in_place(own.rb(), lower.rb_mut().transpose_mut(), threads);
         triangular::matmul(
-            MatMut::from_column_major_slice_mut(&mut rest, below, below),
+            MatMut::from_column_major_slice_mut(rest, below, below),
             BlockStructure::TriangularLower,
             Accum::Add,
             lower.rb(),
@@ -137,7 +215,31 @@ impl Tree {
             -1.0,
             threads,
         );
-        rests.push(Rest { of: s, lower: rest });
+        rests.list.push(Rest { of: s, lower: place });
         Ok(())
     }
+}
+
+/// Strips in narrower ones, each by itself.
+#[cfg(feature = "solve")]
+fn on_threads(strips: [Strip<'_>; 2], threads: usize, work: impl Fn(Strip<'_>) + Sync + Send) {
+    use rayon::prelude::{IntoParallelIterator, ParallelIterator};
+    // The first columns of a triangle have more numbers than the last.
+    let mut narrow = Vec::new();
+    for Strip { first, row, size, values } in strips {
+        let columns = (values.len() / size.max(1)).div_ceil(4 * threads).max(1);
+        let parts = values.chunks_mut((columns * size).max(1)).enumerate();
+        narrow.extend(parts.map(|(k, values)| Strip {
+            first: first + k * columns,
+            row,
+            size,
+            values,
+        }));
+    }
+    narrow.into_par_iter().for_each(work);
+}
+
+#[cfg(not(feature = "solve"))]
+fn on_threads(strips: [Strip<'_>; 2], _: usize, work: impl Fn(Strip<'_>)) {
+    strips.into_iter().for_each(work);
 }

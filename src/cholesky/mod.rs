@@ -7,7 +7,7 @@ mod substitution;
 mod tree;
 
 pub use dissection::dissected;
-pub(crate) use tree::Tree;
+pub(crate) use tree::{Front, Tree};
 
 use faer::{
     Conj, MatMut, Par, Side,
@@ -25,6 +25,7 @@ use faer::{
         },
     },
 };
+use fronts::Room;
 use substitution::Substitution;
 
 /// The pattern of the lower triangle of a symmetric matrix, column by column.
@@ -64,6 +65,7 @@ pub struct Cholesky {
     threads: Par,
     /// Where it is large.
     fronts: Option<(Tree, Substitution)>,
+    room: Room,
 }
 
 /// How many threads factor a matrix of so many rows. Subtrees and parts of products are shared out,
@@ -157,7 +159,7 @@ impl Cholesky {
             }
             _ => None,
         };
-        Some(Self { pattern, symbolic, factor, work, threads, fronts })
+        Some(Self { pattern, symbolic, factor, work, threads, fronts, room: Room::default() })
     }
 
     /// Entries of the factor.
@@ -188,7 +190,8 @@ impl Cholesky {
             return false;
         }
         if let Some((tree, _)) = &self.fronts {
-            return tree.factor(values, &mut self.factor, regularization, self.threads);
+            let into = (self.factor.as_mut_slice(), &self.room);
+            return tree.factor(values, into, regularization, self.threads);
         }
         let entries = SymbolicSparseColMatRef::new_checked(
             n,
@@ -288,13 +291,23 @@ mod tests {
         let last = values.len() - 1;
         let mut fronts = Cholesky::new(pattern.clone()).unwrap();
         let mut faer = Cholesky { fronts: None, ..Cholesky::new(pattern.clone()).unwrap() };
+        let (tree, _) = Cholesky::new(pattern.clone()).unwrap().fronts.unwrap();
         assert!(fronts.fronts.is_some());
         let mut agree = |values: &[f64], least: f64| {
             let done = [fronts.factorize_above(values, least), faer.factorize_above(values, least)];
             assert_eq!(done, [true; 2]);
             let far = |(a, b): (&f64, &f64)| (a - b).abs();
-            let off = fronts.factor.iter().zip(&faer.factor).map(far).fold(0.0, f64::max);
-            assert!(off < 1e-12, "{off}");
+            let (mut own, mut other) = (&fronts.factor[..], &faer.factor[..]);
+            for front in &tree.list {
+                for k in 0..front.width {
+                    // What is above the diagonal is nothing.
+                    let lower = k * front.size + k..(k + 1) * front.size;
+                    let pairs = own[lower.clone()].iter().zip(&other[lower]);
+                    let off = pairs.map(far).fold(0.0, f64::max);
+                    assert!(off < 1e-12, "{off}");
+                }
+                (own, other) = (&own[front.count..], &other[front.count..]);
+            }
             let mut x: Vec<f64> = (0..n).map(|k| ((k * 7919) % 1009) as f64).collect();
             let mut y = x.clone();
             fronts.solve(&mut x);

@@ -12,6 +12,10 @@ use std::sync::{Mutex, PoisonError};
 /// they cost. More: one thread does what two do in half of the time.
 const SHARED: usize = 300_000;
 
+/// Numbers of a panel from which its rows or columns are shared out. Fewer: threads wait for each other
+/// longer than they work.
+const PANEL: usize = 100_000;
+
 /// How to solve with the factors of one pattern.
 pub struct Substitution {
     pieces: Vec<Mutex<Part>>,
@@ -85,10 +89,12 @@ impl Substitution {
 
     /// Solves in place. Sums are taken in one order: the same bits on any number of threads.
     pub fn solve(&self, factor: &[f64], x: &mut [f64], threads: Par) {
-        self.on_pieces(factor, threads, |part| {
+        let on_pieces =
+            |work: &(dyn Fn(&mut Part) + Sync)| self.on_pieces(factor.len(), threads, work);
+        on_pieces(&|part: &mut Part| {
             part.read(x);
             part.values[part.own..].fill(0.0);
-            part.forward(factor);
+            part.forward(factor, 1);
         });
         for part in &self.pieces {
             let part = lock(part);
@@ -100,23 +106,26 @@ impl Substitution {
                 }
             }
         }
-        let mut above = lock(&self.above);
-        above.read(x);
-        above.forward(factor);
-        above.backward(factor);
-        above.write(x);
-        self.on_pieces(factor, threads, |part| {
+        let middle = || {
+            let mut above = lock(&self.above);
+            above.read(x);
+            above.forward(factor, threads.degree());
+            above.backward(factor, threads.degree());
+            above.write(x);
+        };
+        in_pool(threads, middle);
+        on_pieces(&|part: &mut Part| {
             part.read(x);
-            part.backward(factor);
+            part.backward(factor, 1);
         });
         self.pieces.iter().for_each(|part| lock(part).write(x));
     }
 
-    fn on_pieces(&self, factor: &[f64], threads: Par, work: impl Fn(&mut Part) + Sync) {
+    fn on_pieces(&self, numbers: usize, threads: Par, work: &(dyn Fn(&mut Part) + Sync)) {
         let one = |part: &Mutex<Part>| work(&mut lock(part));
         // Where not all threads can be started, what was done is done once more.
         let alone = || self.pieces.iter().for_each(one);
-        let many = if factor.len() > SHARED { threads.degree() } else { 1 };
+        let many = if numbers > SHARED { threads.degree() } else { 1 };
         #[cfg(feature = "solve")]
         if many > 1 {
             return crate::parallel::map(many, &self.pieces, one).map_or_else(|_| alone(), drop);
@@ -124,6 +133,17 @@ impl Substitution {
         debug_assert_eq!(many, 1, "threads come with the solvers");
         alone();
     }
+}
+
+/// Does the work on a thread of the pool where it shares something out: from there that takes
+/// microseconds, from elsewhere tens of them.
+fn in_pool(threads: Par, work: impl FnOnce() + Send) {
+    #[cfg(feature = "solve")]
+    if threads.degree() > 1 {
+        return rayon::scope(|_| work());
+    }
+    debug_assert_eq!(threads.degree(), 1, "threads come with the solvers");
+    work();
 }
 
 /// A part belongs to one thread at a time.
@@ -142,41 +162,85 @@ impl Part {
     }
 
     /// With the lower triangle, from the first column on.
-    fn forward(&mut self, factor: &[f64]) {
+    fn forward(&mut self, factor: &[f64], threads: usize) {
         let Self { panels, values, work, .. } = self;
         for panel in panels {
-            let size = panel.width + panel.below.len();
-            let own = &mut values[panel.first..panel.first + panel.width];
+            let Panel { width, ref below, .. } = *panel;
+            let own = &mut values[panel.first..panel.first + width];
             work.clear();
             work.extend_from_slice(own);
-            work.resize(size, 0.0);
-            let columns = factor[panel.at..].chunks_exact(size).take(panel.width);
-            for (k, column) in columns.enumerate() {
-                let (done, left) = work.split_at_mut(k + 1);
+            work.resize(width + below.len(), 0.0);
+            let columns = panel.columns(factor);
+            let (done, left) = work.split_at_mut(width);
+            for (k, column) in columns.clone().enumerate() {
+                let (done, left) = done.split_at_mut(k + 1);
                 let value = done[k] / column[k];
                 done[k] = value;
-                left.iter_mut().zip(&column[k + 1..]).for_each(|(w, l)| *w -= value * l);
+                less(left, value, &column[k + 1..width]);
             }
-            own.copy_from_slice(&work[..panel.width]);
-            panel.below.iter().zip(&work[panel.width..]).for_each(|(&row, w)| values[row] += w);
+            let done = &*done;
+            shared_out(left, panel.shares(threads), |first, left| {
+                let rows = width + first..width + first + left.len();
+                for (value, column) in done.iter().zip(columns.clone()) {
+                    less(left, *value, &column[rows.clone()]);
+                }
+            });
+            own.copy_from_slice(done);
+            below.iter().zip(&*left).for_each(|(&row, w)| values[row] += w);
         }
     }
 
     /// With its transpose, from the last column on.
-    fn backward(&mut self, factor: &[f64]) {
+    fn backward(&mut self, factor: &[f64], threads: usize) {
         let Self { panels, values, work, .. } = self;
         for panel in panels.iter().rev() {
-            let size = panel.width + panel.below.len();
+            let Panel { width, ref below, .. } = *panel;
             work.clear();
-            work.extend_from_slice(&values[panel.first..panel.first + panel.width]);
-            work.extend(panel.below.iter().map(|&row| values[row]));
-            for k in (0..panel.width).rev() {
-                let column = &factor[panel.at + k * size..panel.at + (k + 1) * size];
-                work[k] = (work[k] - product(&column[k + 1..], &work[k + 1..])) / column[k];
+            work.extend(below.iter().map(|&row| values[row]));
+            let own = &mut values[panel.first..panel.first + width];
+            let columns = panel.columns(factor);
+            shared_out(own, panel.shares(threads), |first, own| {
+                for (value, column) in own.iter_mut().zip(columns.clone().skip(first)) {
+                    *value -= product(&column[width..], work);
+                }
+            });
+            for (k, column) in columns.enumerate().rev() {
+                let (own, known) = own.split_at_mut(k + 1);
+                own[k] = (own[k] - product(&column[k + 1..width], known)) / column[k];
             }
-            values[panel.first..panel.first + panel.width].copy_from_slice(&work[..panel.width]);
         }
     }
+}
+
+impl Panel {
+    /// Its columns of the factor.
+    fn columns<'a>(&self, factor: &'a [f64]) -> std::slice::ChunksExact<'a, f64> {
+        let size = self.width + self.below.len();
+        factor[self.at..self.at + self.width * size].chunks_exact(size)
+    }
+
+    /// In how many shares it is done on so many threads.
+    fn shares(&self, threads: usize) -> usize {
+        if self.width * self.below.len() < PANEL { 1 } else { threads }
+    }
+}
+
+/// Does the work on so many neighbouring parts of a list, each with where it begins.
+fn shared_out(list: &mut [f64], shares: usize, work: impl Fn(usize, &mut [f64]) + Sync + Send) {
+    #[cfg(feature = "solve")]
+    if shares > 1 {
+        use rayon::prelude::{IndexedParallelIterator, ParallelIterator, ParallelSliceMut};
+        let size = list.len().div_ceil(shares).max(1);
+        let parts = list.par_chunks_mut(size).enumerate();
+        return parts.for_each(|(k, part)| work(k * size, part));
+    }
+    debug_assert_eq!(shares, 1, "threads come with the solvers");
+    work(0, list);
+}
+
+/// `to − by × column`.
+fn less(to: &mut [f64], by: f64, column: &[f64]) {
+    to.iter_mut().zip(column).for_each(|(to, l)| *to -= by * l);
 }
 
 /// The scalar product, summed in lanes so that the processor takes several at once.

@@ -29,14 +29,35 @@ pub struct Front {
     pub size: usize,
     /// How many fronts leave something to it.
     pub children: usize,
-    /// Where its rows below its own are in its parent's.
-    pub into: Vec<usize>,
+    /// Where its rows below its own are in its parent's, from the first on.
+    pub into: Vec<Run>,
     /// Which entries of the matrix belong to its own columns, and where.
     pub entries: Vec<(usize, usize)>,
     /// Numbers of a symmetric factor that it has.
     pub count: usize,
     /// Operations of a symmetric factor.
     pub work: f64,
+}
+
+/// Rows beyond those that a front has of its own, counted from the first of them, that are neighbours
+/// in its parent, too: all of the parent's own, or none.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Run {
+    pub from: usize,
+    pub to: usize,
+    pub count: usize,
+}
+
+/// Runs of rows with these places in a parent with so many rows of its own.
+fn runs(places: impl Iterator<Item = usize>, width: usize) -> Vec<Run> {
+    let mut runs: Vec<Run> = Vec::new();
+    for (from, to) in places.enumerate() {
+        match runs.last_mut().filter(|run| run.to + run.count == to && to != width) {
+            Some(run) => run.count += 1,
+            None => runs.push(Run { from, to, count: 1 }),
+        }
+    }
+    runs
 }
 
 impl Tree {
@@ -62,7 +83,7 @@ impl Tree {
                 let width = end[s] - begin[s];
                 let size = width + rows(s).len();
                 let into = parent(s)
-                    .map(|p| rows(s).iter().map(|&row| place(p, row)).collect())
+                    .map(|p| runs(rows(s).iter().map(|&row| place(p, row)), end[p] - begin[p]))
                     .unwrap_or_default();
                 // Of every column the square of what it leaves.
                 let work = (size - width..size).map(|n| (n * n) as f64).sum();

@@ -7,7 +7,7 @@
 //! not symmetric, and the one that it finds costs three to seven times as much.
 
 use super::super::Pattern;
-use crate::cholesky::{Tree, fronts};
+use crate::cholesky::{Front as Place, Tree, fronts};
 use faer::{
     Accum, MatMut, Par,
     dyn_stack::{MemBuffer, MemStack},
@@ -110,11 +110,9 @@ impl Fronts {
         rest.try_reserve_exact(beyond * beyond).ok()?;
         rest.resize(beyond * beyond, 0.0);
         for child in rests.drain(rests.len() - front.children..) {
-            let into = &self.tree.list[child.of].into;
-            // Ascending: first what is eliminated here.
-            let own = into.partition_point(|&row| row < width);
-            for (column, from) in into.iter().zip(child.values.chunks_exact(into.len())) {
-                let (here, left) = from.split_at(own);
+            let Place { into, size: all, width: own, .. } = &self.tree.list[child.of];
+            let mut from = child.values.chunks_exact((all - own).max(1));
+            for column in into.iter().flat_map(|run| run.to..run.to + run.count) {
                 let (to_here, to_left) = match column.checked_sub(width) {
                     None => columns[column * size..(column + 1) * size].split_at_mut(width),
                     Some(k) => (
@@ -122,8 +120,16 @@ impl Fronts {
                         &mut rest[k * beyond..(k + 1) * beyond],
                     ),
                 };
-                into.iter().zip(here).for_each(|(&row, v)| to_here[row] += *v);
-                into[own..].iter().zip(left).for_each(|(&row, v)| to_left[row - width] += *v);
+                let from = from.next().unwrap_or_default();
+                for run in into {
+                    let to = match run.to.checked_sub(width) {
+                        None => &mut to_here[run.to..],
+                        Some(row) => &mut to_left[row..],
+                    };
+                    to.iter_mut()
+                        .zip(&from[run.from..run.from + run.count])
+                        .for_each(|(to, v)| *to += v);
+                }
             }
         }
         let columns = MatMut::from_column_major_slice_mut(columns, size, width);
