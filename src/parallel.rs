@@ -4,6 +4,7 @@
 //! engine's own threads, and the pool uses the wait to begin further pieces on the same stack,
 //! until it overflows.
 
+use rayon::prelude::{IntoParallelIterator, ParallelIterator};
 use std::{
     io,
     sync::{
@@ -50,6 +51,17 @@ pub fn both<A, B: Send>(
         };
         (first, second)
     })
+}
+
+/// Does the work on a thread of the pool that dense products use, too: from there small pieces of it
+/// are handed out in microseconds, from elsewhere in tens of them.
+pub fn in_pool(work: impl FnOnce() + Send) {
+    rayon::scope(|_| work());
+}
+
+/// Does small pieces of work, each with numbers of its own, on the threads of that pool.
+pub fn small<T: Send>(items: Vec<T>, work: impl Fn(T) + Sync + Send) {
+    items.into_par_iter().for_each(work);
 }
 
 /// Does `work` for every item on so many threads (0 for as many as there are processors); the first
@@ -134,6 +146,17 @@ mod tests {
             assert_eq!(both(wanted, || std::mem::replace(&mut first, 2), || 3), (1, 3));
             assert_eq!(first, 2);
         }
+    }
+
+    #[test]
+    fn small_pieces_are_done_once_each() {
+        let mut numbers = vec![0; 1000];
+        let work = || {
+            let parts = numbers.chunks_mut(7).enumerate().collect();
+            small(parts, |(k, part)| part.iter_mut().for_each(|n| *n += k));
+        };
+        in_pool(work);
+        assert!(numbers.iter().enumerate().all(|(i, n)| *n == i / 7));
     }
 
     #[test]

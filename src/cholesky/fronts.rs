@@ -223,7 +223,6 @@ impl Tree {
 /// Strips in narrower ones, each by itself.
 #[cfg(feature = "solve")]
 fn on_threads(strips: [Strip<'_>; 2], threads: usize, work: impl Fn(Strip<'_>) + Sync + Send) {
-    use rayon::prelude::{IntoParallelIterator, ParallelIterator};
     // The first columns of a triangle have more numbers than the last.
     let mut narrow = Vec::new();
     for Strip { first, row, size, values } in strips {
@@ -236,7 +235,7 @@ fn on_threads(strips: [Strip<'_>; 2], threads: usize, work: impl Fn(Strip<'_>) +
             values,
         }));
     }
-    narrow.into_par_iter().for_each(work);
+    crate::parallel::small(narrow, work);
 }
 
 #[cfg(not(feature = "solve"))]

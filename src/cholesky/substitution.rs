@@ -20,6 +20,8 @@ const PANEL: usize = 100_000;
 pub struct Substitution {
     pieces: Vec<Mutex<Part>>,
     above: Mutex<Part>,
+    /// Whether panels above are shared out.
+    shares: bool,
 }
 
 /// Some of the columns of a factor, in the order of elimination, and the rows that they reach.
@@ -84,14 +86,14 @@ impl Substitution {
         };
         let pieces = tree.pieces().map(&mut part).collect();
         let above: Vec<usize> = tree.above().collect();
-        Self { pieces, above: part(&above) }
+        let above = part(&above);
+        let shares = lock(&above).panels.iter().any(|panel| panel.near() < panel.size());
+        Self { pieces, above, shares }
     }
 
     /// Solves in place. Sums are taken in one order: the same bits on any number of threads.
     pub fn solve(&self, factor: &[f64], x: &mut [f64], threads: Par) {
-        let on_pieces =
-            |work: &(dyn Fn(&mut Part) + Sync)| self.on_pieces(factor.len(), threads, work);
-        on_pieces(&|part: &mut Part| {
+        self.on_pieces(factor, threads, |part| {
             part.read(x);
             part.values[part.own..].fill(0.0);
             part.forward(factor, 1);
@@ -106,26 +108,26 @@ impl Substitution {
                 }
             }
         }
-        let middle = || {
+        let inside = if self.shares { threads.degree() } else { 1 };
+        in_pool(inside, || {
             let mut above = lock(&self.above);
             above.read(x);
-            above.forward(factor, threads.degree());
-            above.backward(factor, threads.degree());
+            above.forward(factor, inside);
+            above.backward(factor, inside);
             above.write(x);
-        };
-        in_pool(threads, middle);
-        on_pieces(&|part: &mut Part| {
+        });
+        self.on_pieces(factor, threads, |part| {
             part.read(x);
             part.backward(factor, 1);
         });
         self.pieces.iter().for_each(|part| lock(part).write(x));
     }
 
-    fn on_pieces(&self, numbers: usize, threads: Par, work: &(dyn Fn(&mut Part) + Sync)) {
+    fn on_pieces(&self, factor: &[f64], threads: Par, work: impl Fn(&mut Part) + Sync) {
         let one = |part: &Mutex<Part>| work(&mut lock(part));
         // Where not all threads can be started, what was done is done once more.
         let alone = || self.pieces.iter().for_each(one);
-        let many = if numbers > SHARED { threads.degree() } else { 1 };
+        let many = if factor.len() > SHARED { threads.degree() } else { 1 };
         #[cfg(feature = "solve")]
         if many > 1 {
             return crate::parallel::map(many, &self.pieces, one).map_or_else(|_| alone(), drop);
@@ -137,12 +139,12 @@ impl Substitution {
 
 /// Does the work on a thread of the pool where it shares something out: from there that takes
 /// microseconds, from elsewhere tens of them.
-fn in_pool(threads: Par, work: impl FnOnce() + Send) {
+fn in_pool(threads: usize, work: impl FnOnce() + Send) {
     #[cfg(feature = "solve")]
-    if threads.degree() > 1 {
-        return rayon::scope(|_| work());
+    if threads > 1 {
+        return crate::parallel::in_pool(work);
     }
-    debug_assert_eq!(threads.degree(), 1, "threads come with the solvers");
+    debug_assert_eq!(threads, 1, "threads come with the solvers");
     work();
 }
 
@@ -165,28 +167,28 @@ impl Part {
     fn forward(&mut self, factor: &[f64], threads: usize) {
         let Self { panels, values, work, .. } = self;
         for panel in panels {
-            let Panel { width, ref below, .. } = *panel;
+            let (width, near) = (panel.width, panel.near());
             let own = &mut values[panel.first..panel.first + width];
             work.clear();
             work.extend_from_slice(own);
-            work.resize(width + below.len(), 0.0);
+            work.resize(panel.size(), 0.0);
             let columns = panel.columns(factor);
-            let (done, left) = work.split_at_mut(width);
+            let (here, far) = work.split_at_mut(near);
             for (k, column) in columns.clone().enumerate() {
-                let (done, left) = done.split_at_mut(k + 1);
+                let (done, left) = here.split_at_mut(k + 1);
                 let value = done[k] / column[k];
                 done[k] = value;
-                less(left, value, &column[k + 1..width]);
+                less(left, value, &column[k + 1..near]);
             }
-            let done = &*done;
-            shared_out(left, panel.shares(threads), |first, left| {
-                let rows = width + first..width + first + left.len();
+            let done = &here[..width];
+            shared_out(far, threads, |first, far| {
+                let rows = near + first..near + first + far.len();
                 for (value, column) in done.iter().zip(columns.clone()) {
-                    less(left, *value, &column[rows.clone()]);
+                    less(far, *value, &column[rows.clone()]);
                 }
             });
-            own.copy_from_slice(done);
-            below.iter().zip(&*left).for_each(|(&row, w)| values[row] += w);
+            own.copy_from_slice(&work[..width]);
+            panel.below.iter().zip(&work[width..]).for_each(|(&row, w)| values[row] += w);
         }
     }
 
@@ -194,47 +196,58 @@ impl Part {
     fn backward(&mut self, factor: &[f64], threads: usize) {
         let Self { panels, values, work, .. } = self;
         for panel in panels.iter().rev() {
-            let Panel { width, ref below, .. } = *panel;
+            let (width, near) = (panel.width, panel.near());
+            let own = panel.first..panel.first + width;
             work.clear();
-            work.extend(below.iter().map(|&row| values[row]));
-            let own = &mut values[panel.first..panel.first + width];
+            work.extend_from_slice(&values[own.clone()]);
+            work.extend(panel.below.iter().map(|&row| values[row]));
             let columns = panel.columns(factor);
-            shared_out(own, panel.shares(threads), |first, own| {
-                for (value, column) in own.iter_mut().zip(columns.clone().skip(first)) {
-                    *value -= product(&column[width..], work);
-                }
-            });
-            for (k, column) in columns.enumerate().rev() {
-                let (own, known) = own.split_at_mut(k + 1);
-                own[k] = (own[k] - product(&column[k + 1..width], known)) / column[k];
+            let (here, far) = work.split_at_mut(near);
+            if !far.is_empty() {
+                shared_out(&mut here[..width], threads, |first, own| {
+                    for (value, column) in own.iter_mut().zip(columns.clone().skip(first)) {
+                        *value -= product(&column[near..], far);
+                    }
+                });
             }
+            for (k, column) in columns.enumerate().rev() {
+                let (own, known) = here.split_at_mut(k + 1);
+                own[k] = (own[k] - product(&column[k + 1..near], known)) / column[k];
+            }
+            values[own].copy_from_slice(&here[..width]);
         }
     }
 }
 
 impl Panel {
-    /// Its columns of the factor.
-    fn columns<'a>(&self, factor: &'a [f64]) -> std::slice::ChunksExact<'a, f64> {
-        let size = self.width + self.below.len();
-        factor[self.at..self.at + self.width * size].chunks_exact(size)
+    /// Its rows.
+    fn size(&self) -> usize {
+        self.width + self.below.len()
     }
 
-    /// In how many shares it is done on so many threads.
-    fn shares(&self, threads: usize) -> usize {
-        if self.width * self.below.len() < PANEL { 1 } else { threads }
+    /// How many of its rows are done on one thread: its own, or all of them where it is small.
+    fn near(&self) -> usize {
+        if self.width * self.below.len() < PANEL { self.size() } else { self.width }
+    }
+
+    /// Its columns of the factor.
+    fn columns<'a>(&self, factor: &'a [f64]) -> std::slice::ChunksExact<'a, f64> {
+        factor[self.at..self.at + self.width * self.size()].chunks_exact(self.size())
     }
 }
 
-/// Does the work on so many neighbouring parts of a list, each with where it begins.
-fn shared_out(list: &mut [f64], shares: usize, work: impl Fn(usize, &mut [f64]) + Sync + Send) {
-    #[cfg(feature = "solve")]
-    if shares > 1 {
-        use rayon::prelude::{IndexedParallelIterator, ParallelIterator, ParallelSliceMut};
-        let size = list.len().div_ceil(shares).max(1);
-        let parts = list.par_chunks_mut(size).enumerate();
-        return parts.for_each(|(k, part)| work(k * size, part));
+/// Does the work on as many neighbouring parts of a list as there are threads, each with where it begins.
+fn shared_out(list: &mut [f64], threads: usize, work: impl Fn(usize, &mut [f64]) + Sync + Send) {
+    if list.is_empty() {
+        return;
     }
-    debug_assert_eq!(shares, 1, "threads come with the solvers");
+    #[cfg(feature = "solve")]
+    if threads > 1 {
+        let size = list.len().div_ceil(threads);
+        let parts = list.chunks_mut(size).enumerate().collect();
+        return crate::parallel::small(parts, |(k, part)| work(k * size, part));
+    }
+    debug_assert_eq!(threads, 1, "threads come with the solvers");
     work(0, list);
 }
 
