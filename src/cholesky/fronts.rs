@@ -93,12 +93,12 @@ impl Strip<'_> {
                 let j = column - run.to;
                 let from = &rest[(run.from + j) * rows..(run.from + j + 1) * rows];
                 let to = &mut self.values[(column - self.first) * self.size..][..self.size];
-                let add = |from: &[f64], to: &mut [f64]| {
-                    to.iter_mut().zip(from).for_each(|(to, v)| *to += v);
-                };
                 let first = Run { from: run.from + j, to: column, count: run.count - j };
                 for run in std::iter::once(&first).chain(&into[k + 1..]) {
-                    add(&from[run.from..run.from + run.count], &mut to[run.to - self.row..]);
+                    to[run.to - self.row..]
+                        .iter_mut()
+                        .zip(&from[run.from..run.from + run.count])
+                        .for_each(|(to, v)| *to += v);
                 }
             }
         }

@@ -352,6 +352,28 @@ mod tests {
         }
     }
 
+    /// What a matrix that has no factor left in the room of its fronts is in no later factor.
+    #[test]
+    fn a_matrix_without_a_factor_leaves_nothing_behind() {
+        let (pattern, values) = lattice(20);
+        let mut spoiled = values.clone();
+        // Rows of the first columns have fronts of their own; those above gather what they leave.
+        spoiled.iter_mut().step_by(97).for_each(|v| *v = f64::NAN);
+        let mut cholesky = Cholesky::new(pattern.clone()).unwrap();
+        cholesky.threads = Par::Seq;
+        let room = |cholesky: &Cholesky| -> usize {
+            cholesky.room.lock().unwrap().iter().map(Vec::len).sum()
+        };
+        assert!(cholesky.factorize(&values));
+        assert!(room(&cholesky) > 0);
+        assert!(!cholesky.factorize(&spoiled));
+        cholesky.room.lock().unwrap().iter_mut().for_each(|place| place.fill(f64::NAN));
+        assert!(cholesky.factorize(&values));
+        let mut fresh = Cholesky::new(pattern).unwrap();
+        assert!(fresh.factorize(&values));
+        assert!(fresh.factor == cholesky.factor);
+    }
+
     /// `[[4, 1, 0], [1, 3, 1], [0, 1, 2]]`.
     fn three() -> (Pattern, [f64; 5]) {
         (Pattern { starts: vec![0, 2, 4, 5], rows: vec![0, 1, 1, 2, 2] }, [4.0, 1.0, 3.0, 1.0, 2.0])
