@@ -75,7 +75,7 @@ impl Cones {
             let w = &mut self.scale[cone.rows()];
             if cone.round {
                 let (ds, dz) = (det(s), det(z));
-                if !(ds > 0.0 && dz > 0.0) {
+                if !(s[0] > 0.0 && z[0] > 0.0 && ds > 0.0 && dz > 0.0) {
                     return false;
                 }
                 let (rs, rz) = (ds.sqrt(), dz.sqrt());
@@ -214,17 +214,39 @@ impl Cones {
         }
     }
 
-    /// The least `t` that brings `v + t ×` unit to the boundary of every cone.
-    pub fn outside(&self, v: &[f64]) -> f64 {
-        let of = |cone: &ConeAt| {
-            let v = &v[cone.rows()];
+    /// Moves every cone that is less than `margin` × its unit inside as far in as that.
+    pub fn inward(&self, v: &mut [f64], margin: f64) {
+        for cone in &self.list {
+            let v = &mut v[cone.rows()];
             if cone.round {
-                norm(&v[1..]) - v[0]
+                v[0] = v[0].max(norm(&v[1..]) + margin);
             } else {
-                v.iter().fold(f64::NEG_INFINITY, |t, v| t.max(-v))
+                v.iter_mut().for_each(|v| *v = v.max(margin));
             }
-        };
-        self.list.iter().map(of).fold(f64::NEG_INFINITY, f64::max)
+        }
+    }
+
+    /// Whether `v` is inside every cone.
+    fn holds(&self, v: &[f64]) -> bool {
+        self.list.iter().all(|cone| {
+            let v = &v[cone.rows()];
+            if cone.round { v[0] > 0.0 && det(v) > 0.0 } else { v.iter().all(|v| *v > 0.0) }
+        })
+    }
+
+    /// Moves `v` along `d` by `step`, or by as much less of it as leaves it inside, and says how far:
+    /// what a step all but empties may round to outside.
+    pub fn advance(&self, v: &mut [f64], step: f64, d: &[f64]) -> f64 {
+        let from = v.to_vec();
+        let mut step = step;
+        for _ in 0..=MOST_SHORTER {
+            v.iter_mut().zip(from.iter().zip(d)).for_each(|(v, (from, d))| *v = from + step * d);
+            if self.holds(v) {
+                break;
+            }
+            step *= SHORTER;
+        }
+        step
     }
 
     /// The greatest step along `d` from `v` inside.
@@ -237,6 +259,11 @@ impl Cones {
         least
     }
 }
+
+/// A step that rounds to outside is made this much shorter, so many times at most. Nearer to 1: it
+/// rounds to outside again. Farther: residuals outlive the step.
+const SHORTER: f64 = 0.99;
+const MOST_SHORTER: usize = 10;
 
 /// Rows of a second-order cone that is handled: those of a block in space, and its bound.
 pub(super) const MOST_ROWS: usize = 8;
@@ -348,7 +375,8 @@ mod tests {
         ] {
             let t = c.step(&S, &d);
             let end: Vec<f64> = S.iter().zip(&d).map(|(s, d)| s + t * d).collect();
-            assert!(c.outside(&end).abs() < 1e-12, "{d:?} {t} {end:?}");
+            let ends = end[0].min(end[1]).min(end[2] - norm(&end[3..]));
+            assert!(ends.abs() < 1e-12, "{d:?} {t} {end:?}");
         }
         assert_eq!(c.step(&S, &[1.0, 0.0, 2.0, 1.0, 0.0]), f64::INFINITY);
     }
@@ -359,5 +387,28 @@ mod tests {
         assert!(
             !c.scale(&[1.0, -1.0, 5.0, 0.0, 0.0], &Z) && !c.scale(&[1.0, 1.0, 5.0, 4.0, 3.0], &Z)
         );
+        // As far from the axis as a point inside, and behind the tip.
+        assert!(!c.scale(&[1.0, 1.0, -5.0, 3.0, 1.0], &Z) && !c.scale(&S, &Z.map(|z| -z)));
+    }
+
+    #[test]
+    fn what_a_step_empties_stays_inside() {
+        let mut c = cones();
+        for step in [1.0, 1.0 + f64::EPSILON] {
+            let (mut v, d) = (S, S.map(|s| -s));
+            let far = c.advance(&mut v, step, &d);
+            assert!(far < 1.0 && far > 0.98 && c.scale(&v, &Z), "{step}: {far} {v:?}");
+        }
+        let mut v = S;
+        assert!(c.advance(&mut v, 0.5, &S) == 0.5 && v == S.map(|s| 1.5 * s));
+    }
+
+    #[test]
+    fn what_lies_outside_is_moved_in_and_nothing_else() {
+        let mut v = [-3.0, 2.0, -1.0, 3.0, 4.0];
+        cones().inward(&mut v, 0.5);
+        assert_eq!(v, [0.5, 2.0, 5.5, 3.0, 4.0]);
+        cones().inward(&mut v, 0.25);
+        assert_eq!(v, [0.5, 2.0, 5.5, 3.0, 4.0]);
     }
 }

@@ -4,7 +4,7 @@
 
 use super::{
     newton::{Newton, Point, ROUGH},
-    step::{TO_THE_BOUNDARY, add, slack, steps},
+    step::{add, slack, steps},
 };
 
 /// Further correctors towards products of one size (Gondzio 1996). Fewer: more factorisations.
@@ -24,11 +24,11 @@ const HIGH: f64 = 10.0;
 const FAR_ENOUGH: f64 = 0.9;
 
 /// Improves a direction `(d, ds)` from `(s, z)` that aims at products `target`, and its steps on
-/// both sides.
+/// both sides, by `share` of the way to the boundary.
 pub(super) fn further(
     newton: &mut Newton,
     (s, z): (&[f64], &[f64]),
-    target: f64,
+    (target, share): (f64, f64),
     (d, ds): (&mut Point, &mut Vec<f64>),
     (ap, ad): (&mut f64, &mut f64),
 ) {
@@ -60,7 +60,7 @@ pub(super) fn further(
         for weight in [1.0, 0.7, 0.4, 0.2, 0.1] {
             mix(&mut s2, ds, weight, &more_s);
             mix(&mut z2, &d.z, weight, &more.z);
-            let (bp, bd) = steps(cones, st, (s, &s2), (z, &z2), TO_THE_BOUNDARY);
+            let (bp, bd) = steps(cones, st, (s, &s2), (z, &z2), share);
             let score = bp * bd;
             if found.as_ref().is_none_or(|best| score > best.score) {
                 found = Some(Mix { score, weight, step: [bp, bd] });

@@ -5,7 +5,7 @@ use super::{
     correctors::further,
     newton::{EXACT, Newton, Point, ROUGH},
     reduced::Reduced,
-    step::{TO_THE_BOUNDARY, add, slack, steps},
+    step::{add, share_of_the_way, slack, steps},
     structure::Structure,
 };
 use crate::solve::{Iteration, Settings, Status};
@@ -41,6 +41,13 @@ const PATIENCE: usize = 8;
 /// nothing limits stay where they are. Larger: more iterations. Smaller: they grow until rounding
 /// of them is all that equilibrium has left.
 pub(super) const HELD: f64 = 1e-3;
+
+/// The start lies this × the greatest entry inside every cone, `s` (of forces) and `z` (of rates).
+/// Only the cones that lie less far inside are moved: with all of them moved alike a packing of
+/// 10,000 grains takes 18 iterations in place of 17, a wall of 100 × 100 blocks 33 in place of 31.
+/// Smaller: first steps that end at once. Larger: steps that make up for the start.
+const FORCES_INSIDE: f64 = 0.25;
+const RATES_INSIDE: f64 = 2.5;
 
 /// Unknowns beyond this have grown because nothing limits them: forces of grains that are jammed
 /// between others. Larger: such programs stay unsolved. Smaller: others that stall are solved twice.
@@ -118,17 +125,13 @@ fn begin(
         ..zero
     };
     let dual = newton.solve(&cost, EXACT, 0.0);
-    let inside = |mut v: Vec<f64>| {
-        let t = cones.outside(&v);
-        // A little inside already is not inside enough.
-        let size = greatest(&v).max(f64::MIN_POSITIVE);
-        if t > -1e-3 * size {
-            cones.add_unit(&mut v, t + if size > f64::MIN_POSITIVE { size } else { 1.0 });
-        }
+    let inside = |mut v: Vec<f64>, share: f64| {
+        let size = greatest(&v);
+        cones.inward(&mut v, if size > 0.0 { share * size } else { 1.0 });
         v
     };
-    let s = inside(primal.z.iter().map(|v| -v).collect());
-    Some((Point { x: primal.x, t: primal.t, y: dual.y, z: inside(dual.z) }, s))
+    let s = inside(primal.z.iter().map(|v| -v).collect(), FORCES_INSIDE);
+    Some((Point { x: primal.x, t: primal.t, y: dual.y, z: inside(dual.z, RATES_INSIDE) }, s))
 }
 
 /// Solves the program from the warm point, if there is one. `start` is when this solve began. Every
@@ -226,6 +229,7 @@ pub(super) fn follow(
             .map(|((s, ds), (z, dz))| (s + ap * ds) * (z + ad * dz))
             .sum();
         let sigma = (after / gap).clamp(0.0, 1.0).powi(3);
+        let share = share_of_the_way(sigma);
         // Corrector: λ ∘ u = −λ∘λ − (W⁻¹ ds) ∘ (W dz) + σ μ e.
         let mut u = ds;
         cones.over(&mut u);
@@ -242,16 +246,21 @@ pub(super) fn follow(
         add(&mut a.z, -1.0, &u);
         let mut d = newton.solve(&a, EXACT, enough);
         let mut ds = slack(st, &d, &r);
-        let (mut ap, mut ad) = steps(&cones, st, (&s, &ds), (&p.z, &d.z), TO_THE_BOUNDARY);
-        further(&mut newton, (&s, &p.z), sigma * mu, (&mut d, &mut ds), (&mut ap, &mut ad));
+        let (mut ap, mut ad) = steps(&cones, st, (&s, &ds), (&p.z, &d.z), share);
+        further(
+            &mut newton,
+            (&s, &p.z),
+            (sigma * mu, share),
+            (&mut d, &mut ds),
+            (&mut ap, &mut ad),
+        );
         if ap.max(ad) < LEAST_STEP || ap.is_nan() || ad.is_nan() {
             return give(best, Status::Stalled);
         }
+        (ap, ad) = (cones.advance(&mut s, ap, &ds), cones.advance(&mut p.z, ad, &d.z));
         add(&mut p.x, ap, &d.x);
         add(&mut p.t, ap, &d.t);
-        add(&mut s, ap, &ds);
         add(&mut p.y, ad, &d.y);
-        add(&mut p.z, ad, &d.z);
     }
     give(best, Status::Limit)
 }
