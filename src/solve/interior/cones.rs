@@ -19,6 +19,11 @@ impl ConeAt {
     fn rows(&self) -> std::ops::Range<usize> {
         self.first..self.first + self.size
     }
+
+    /// Whether its rows `v` lie inside.
+    fn holds(&self, v: &[f64]) -> bool {
+        if self.round { v[0] > 0.0 && det(v) > 0.0 } else { v.iter().all(|v| *v > 0.0) }
+    }
 }
 
 /// Cones with the scaling of one pair (s, z).
@@ -71,14 +76,13 @@ impl Cones {
     pub fn scale(&mut self, s: &[f64], z: &[f64]) -> bool {
         for cone in &self.list {
             let (s, z) = (&s[cone.rows()], &z[cone.rows()]);
+            if !(cone.holds(s) && cone.holds(z)) {
+                return false;
+            }
             let lambda = &mut self.lambda[cone.rows()];
             let w = &mut self.scale[cone.rows()];
             if cone.round {
-                let (ds, dz) = (det(s), det(z));
-                if !(s[0] > 0.0 && z[0] > 0.0 && ds > 0.0 && dz > 0.0) {
-                    return false;
-                }
-                let (rs, rz) = (ds.sqrt(), dz.sqrt());
+                let (rs, rz) = (det(s).sqrt(), det(z).sqrt());
                 let dot: f64 = s.iter().zip(z).map(|(a, b)| a * b).sum::<f64>() / (rs * rz);
                 let gamma = (0.5 * (1.0 + dot)).sqrt();
                 let eta = (rs / rz).sqrt();
@@ -91,9 +95,6 @@ impl Cones {
                 self.eta[cone.first] = eta;
                 apply(w, eta, z, lambda);
             } else {
-                if !s.iter().chain(z).all(|v| *v > 0.0) {
-                    return false;
-                }
                 for ((w, l), (s, z)) in w.iter_mut().zip(lambda).zip(s.iter().zip(z)) {
                     *w = (s / z).sqrt();
                     *l = (s * z).sqrt();
@@ -226,22 +227,13 @@ impl Cones {
         }
     }
 
-    /// Whether `v` is inside every cone.
-    fn holds(&self, v: &[f64]) -> bool {
-        self.list.iter().all(|cone| {
-            let v = &v[cone.rows()];
-            if cone.round { v[0] > 0.0 && det(v) > 0.0 } else { v.iter().all(|v| *v > 0.0) }
-        })
-    }
-
-    /// Moves `v` along `d` by `step`, or by as much less of it as leaves it inside, and says how far:
-    /// what a step all but empties may round to outside.
-    pub fn advance(&self, v: &mut [f64], step: f64, d: &[f64]) -> f64 {
-        let from = v.to_vec();
+    /// As much of `step` from `v` along `d` as does not round to outside: what a step all but empties
+    /// may.
+    pub fn kept_inside(&self, v: &[f64], d: &[f64], step: f64) -> f64 {
         let mut step = step;
-        for _ in 0..=MOST_SHORTER {
-            v.iter_mut().zip(from.iter().zip(d)).for_each(|(v, (from, d))| *v = from + step * d);
-            if self.holds(v) {
+        for _ in 0..MOST_SHORTER {
+            let end: Vec<f64> = v.iter().zip(d).map(|(v, d)| v + step * d).collect();
+            if self.list.iter().all(|cone| cone.holds(&end[cone.rows()])) {
                 break;
             }
             step *= SHORTER;
@@ -396,11 +388,11 @@ mod tests {
         let mut c = cones();
         for step in [1.0, 1.0 + f64::EPSILON] {
             let (mut v, d) = (S, S.map(|s| -s));
-            let far = c.advance(&mut v, step, &d);
+            let far = c.kept_inside(&v, &d, step);
+            v.iter_mut().zip(d).for_each(|(v, d)| *v += far * d);
             assert!(far < 1.0 && far > 0.98 && c.scale(&v, &Z), "{step}: {far} {v:?}");
         }
-        let mut v = S;
-        assert!(c.advance(&mut v, 0.5, &S) == 0.5 && v == S.map(|s| 1.5 * s));
+        assert_eq!(c.kept_inside(&S, &S, 0.5), 0.5);
     }
 
     #[test]

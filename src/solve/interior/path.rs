@@ -5,7 +5,7 @@ use super::{
     correctors::further,
     newton::{EXACT, Newton, Point, ROUGH},
     reduced::Reduced,
-    step::{add, share_of_the_way, slack, steps},
+    step::{add, kept_inside, share_of_the_way, slack, steps},
     structure::Structure,
 };
 use crate::solve::{Iteration, Settings, Status};
@@ -43,8 +43,9 @@ const PATIENCE: usize = 8;
 pub(super) const HELD: f64 = 1e-3;
 
 /// The start lies this × the greatest entry inside every cone, `s` (of forces) and `z` (of rates).
-/// Only the cones that lie less far inside are moved: with all of them moved alike a packing of
-/// 10,000 grains takes 18 iterations in place of 17, a wall of 100 × 100 blocks 33 in place of 31.
+/// Only the cones that lie less far inside are moved: with all of them moved alike seven packings of
+/// 4,000 and 5,000 grains take 94 iterations in place of 80, a wall of 100 × 100 blocks 33 in place
+/// of 32.
 /// Smaller: first steps that end at once. Larger: steps that make up for the start.
 const FORCES_INSIDE: f64 = 0.25;
 const RATES_INSIDE: f64 = 2.5;
@@ -257,10 +258,12 @@ pub(super) fn follow(
         if ap.max(ad) < LEAST_STEP || ap.is_nan() || ad.is_nan() {
             return give(best, Status::Stalled);
         }
-        (ap, ad) = (cones.advance(&mut s, ap, &ds), cones.advance(&mut p.z, ad, &d.z));
+        (ap, ad) = kept_inside(&cones, st, (&s, &ds), (&p.z, &d.z), (ap, ad));
         add(&mut p.x, ap, &d.x);
         add(&mut p.t, ap, &d.t);
+        add(&mut s, ap, &ds);
         add(&mut p.y, ad, &d.y);
+        add(&mut p.z, ad, &d.z);
     }
     give(best, Status::Limit)
 }
