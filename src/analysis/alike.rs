@@ -1,11 +1,13 @@
 //! Tilts towards many directions: where a symmetry of the scene carries one direction into another,
-//! the answer is carried there, and only proved anew.
+//! the answer is carried there, and only proved anew; elsewhere the program of a direction begins near what
+//! that of the direction before passed.
 
 use super::{
     Control, Proved,
     coulomb::DryLoadFactor,
     limit::{self, LoadFactor},
-    tilt::{DryTilt, Tilt, tilt},
+    near::Near,
+    tilt::{DryTilt, Tilt, tilt_near},
 };
 use crate::{
     error::InputError,
@@ -40,6 +42,7 @@ impl<'a> Tilts<'a> {
     /// As [`tilt`](tilt()).
     pub fn bounds(&self, toward: &[Vector3<f64>]) -> Result<Vec<Tilt>, InputError> {
         let mut done: Vec<Tilt> = Vec::with_capacity(toward.len());
+        let near = Near::default();
         for &toward in toward {
             let image = match self.original(&done, toward) {
                 Some((which, isometry)) => self.bound_from(&done[which], &isometry, toward)?,
@@ -47,7 +50,7 @@ impl<'a> Tilts<'a> {
             };
             done.push(match image {
                 Some(image) => image,
-                None => tilt(self.model, toward, self.control)?,
+                None => tilt_near(self.model, toward, self.control, &near)?,
             });
         }
         Ok(done)

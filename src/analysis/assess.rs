@@ -277,7 +277,7 @@ pub(super) fn least_unbalance(model: &Model, live: LiveLoad, control: &Control) 
         statics.sections = std::mem::take(&mut sections);
         let settings = step.settings(control.deadline);
         let build = |statics: &Statics| program::unbalance(statics, live, step.unknowns);
-        let mut done = run(model, &mut statics, build, &settings);
+        let mut done = run(model, &mut statics, build, &settings, None);
         let (mut lower, mut upper) = (0.0, f64::INFINITY);
         if let Some(mut c) = done.candidate.take() {
             mend::cut(interfaces, &mut c.forces);

@@ -7,7 +7,7 @@ use crate::{
     deadline::Deadline,
     interface::Model,
     program::{ConicProgram, Positions, Statics, Unknowns},
-    solve::{self, EngineSettings, Settings, Solution},
+    solve::{self, EngineSettings, Passed, Settings, Solution},
     terms::{Attempt, Law},
     verdict::{Forces, Rate, certificate},
 };
@@ -121,6 +121,8 @@ pub(super) struct Run {
     /// Forces and rates in our signs and units; `None` where the engine left no finite numbers.
     pub candidate: Option<Candidate>,
     pub solution: Solution,
+    /// Where a program alike may begin.
+    pub passed: Option<Passed>,
     /// Unknowns and rows of the last program.
     pub size: [usize; 2],
 }
@@ -153,22 +155,24 @@ impl Run {
 }
 
 /// Solves the program that `build` makes, again and again with the bounds on crushing that its
-/// forces break, which stay in `statics`.
+/// forces break, which stay in `statics`; the first time near what a program alike passed.
 pub(super) fn run(
     model: &Model,
     statics: &mut Statics,
     build: impl Fn(&Statics) -> (ConicProgram, Positions),
     settings: &Settings,
+    near: Option<Passed>,
 ) -> Run {
     let Model { assembly, interfaces, .. } = model;
-    let mut rounds = 0;
+    let (mut rounds, mut near) = (0, near);
     loop {
         rounds += 1;
         let (program, layout) = build(statics);
-        let solution = solve::solve(&program, settings);
+        let mut solution = solve::solve_near(&program, settings, near.take());
+        let passed = solution.passed.take();
         let size = [program.matrix.columns, program.matrix.rows];
         if !solution.is_finite() {
-            return Run { candidate: None, solution, size };
+            return Run { candidate: None, solution, passed, size };
         }
         let forces = statics.forces(interfaces, layout.forces(&solution.x, &solution.z));
         let broken = certificate::crushed(interfaces, &forces);
@@ -184,6 +188,7 @@ pub(super) fn run(
         return Run {
             candidate: Some(Candidate { solution: solution.clone(), forces, rates }),
             solution,
+            passed,
             size,
         };
     }
@@ -201,8 +206,9 @@ mod tests {
             status: Status::Solved,
             trace: Vec::new(),
             seconds: 0.5,
+            passed: None,
         };
-        let run = Run { candidate: None, solution, size: [3, 4] };
+        let run = Run { candidate: None, solution, passed: None, size: [3, 4] };
         serde_json::to_value(run.attempt(
             "least unbalance in forces".into(),
             1.0,

@@ -17,7 +17,7 @@ use crate::{
     deadline::Deadline,
     interface::Model,
     program::{self, LiveLoad, Statics, StaticsOptions, Unknowns},
-    solve::EngineSettings,
+    solve::{EngineSettings, Passed},
     strength::laws::unlimited,
     terms::{Attempt, Bracket, Deciding, Outcome},
     tolerance,
@@ -124,6 +124,15 @@ pub(super) fn unproved(model: &Model, control: &Control) -> LoadFactor {
 
 /// The same for one part.
 pub(super) fn of_part(model: &Model, control: &Control) -> LoadFactor {
+    of_part_near(model, control, &mut None)
+}
+
+/// The same, begun near what the program of other loads passed; this one's point is left there.
+pub(super) fn of_part_near(
+    model: &Model,
+    control: &Control,
+    near: &mut Option<Passed>,
+) -> LoadFactor {
     let Model { assembly, interfaces, .. } = model;
     // The last of many directions may find the time already over: nothing is built for it.
     if control.deadline.is_over() {
@@ -163,7 +172,12 @@ pub(super) fn of_part(model: &Model, control: &Control) -> LoadFactor {
         if control.deadline.is_over() {
             break;
         }
-        climb(model, &mut statics, step, scale, control.deadline, &mut answer);
+        let from = if index == 0 { near.take() } else { None };
+        let way = (step, scale, control.deadline);
+        let passed = climb(model, &mut statics, way, from, &mut answer);
+        if index == 0 {
+            *near = passed;
+        }
         // Without a value the bracket is as wide as can be.
         let value = answer.value.map_or(0.0, f64::abs);
         if answer.bracket.is_narrow(
@@ -331,20 +345,19 @@ fn unknown(model: &Model, left_out: Vec<String>) -> LoadFactor {
 }
 
 /// One attempt at program L; tightens the bracket in `answer`. Bounds on crushing that it finds
-/// stay in `base`.
+/// stay in `base`. It begins near a point that the program of other loads passed, and returns its own.
 fn climb(
     model: &Model,
     base: &mut Statics,
-    step: Rung,
-    scale: f64,
-    deadline: Deadline,
+    (step, scale, deadline): (Rung, f64, Deadline),
+    from: Option<Passed>,
     answer: &mut LoadFactor,
-) {
+) -> Option<Passed> {
     let assembly = &model.assembly;
     let mut statics = step.scaled(base);
     let settings = step.settings(deadline);
     let build = |statics: &Statics| program::load_factor(statics, scale, step.unknowns);
-    let mut done = run(model, &mut statics, build, &settings);
+    let mut done = run(model, &mut statics, build, &settings, from);
     let (mut lower, mut upper, mut engine_value) = (f64::NEG_INFINITY, f64::INFINITY, None);
     if let Some(c) = done.candidate.take() {
         let lambda = scale
@@ -391,6 +404,7 @@ fn climb(
         [lower, upper],
     ));
     base.sections = statics.sections;
+    done.passed
 }
 
 /// The bracket of the best forces and the best mechanism together. Each end is corrected to first
@@ -428,9 +442,8 @@ pub fn attempt(model: &Model, way: &Formulation) -> LoadFactor {
     climb(
         model,
         &mut statics,
-        Rung { unknowns, unit, local, even: false, tolerance, engine },
-        scale,
-        Deadline::NEVER,
+        (Rung { unknowns, unit, local, even: false, tolerance, engine }, scale, Deadline::NEVER),
+        None,
         &mut answer,
     );
     let value = answer.value.map_or(0.0, f64::abs);

@@ -20,6 +20,7 @@ mod known;
 pub mod limit;
 mod mend;
 pub mod moving;
+mod near;
 mod parts;
 pub mod piles;
 mod proved;

@@ -334,7 +334,7 @@ impl Problem<'_> {
         let settings = step.settings(deadline);
         let build =
             |statics: &Statics| program::thrust(statics, &self.objective(statics, interfaces));
-        let mut done = run(model, &mut statics, build, &settings);
+        let mut done = run(model, &mut statics, build, &settings, None);
         let mut ends = [f64::NEG_INFINITY, f64::INFINITY];
         if let Some(Candidate { forces, rates, .. }) = done.candidate.take() {
             // Rates come per unit of the objective.
@@ -412,7 +412,7 @@ impl Problem<'_> {
         let build = |statics: &Statics| {
             program::endless_thrust(statics, &own.objective(statics, &unlimited.interfaces))
         };
-        let mut done = run(&unlimited, &mut statics, build, &settings);
+        let mut done = run(&unlimited, &mut statics, build, &settings, None);
         let mut ends = [f64::NEG_INFINITY, f64::INFINITY];
         let mut endless = false;
         if let Some(Candidate { forces, .. }) = done.candidate.take() {

@@ -11,11 +11,13 @@ use super::{
     Bracket, Claims, Control, LoadFactor, Outcome, Proved,
     coulomb::{self, DryLoadFactor, Found},
     limit, mend,
+    near::Near,
     parts::{self, limit::PartMethods},
 };
 use crate::{
     error::InputError,
     interface::{Model, Part},
+    solve::Passed,
     strength::laws::are_dry,
     tolerance,
     verdict::{
@@ -64,16 +66,28 @@ impl Tilt {
 /// # Errors
 /// As [`turned`].
 pub fn tilt(model: &Model, toward: Vector3<f64>, control: &Control) -> Result<Tilt, InputError> {
+    tilt_near(model, toward, control, &Near::default())
+}
+
+/// The same, begun near what another direction passed.
+pub(super) fn tilt_near(
+    model: &Model,
+    toward: Vector3<f64>,
+    control: &Control,
+    near: &Near,
+) -> Result<Tilt, InputError> {
     let (assembly, toward) = turned(&model.assembly, toward)?;
     let turned = Model::new(assembly, model.interfaces.clone());
     let load_factor = if are_dry(&turned.interfaces) {
-        limit::unproved(&turned, control)
+        let solve = |part: &Part, control: &Control| {
+            near.part(part, |near| limit::of_part_near(&part.model, control, near))
+        };
+        parts::limit::limit_by(&turned, control, &PartMethods { solve, at: parts::limit::under })
     } else {
-        parts::limit::limit_by(
-            &turned,
-            control,
-            &PartMethods { solve: tilted_part, at: tilted_under },
-        )
+        let solve = |part: &Part, control: &Control| {
+            near.part(part, |near| tilted_part(part, control, near))
+        };
+        parts::limit::limit_by(&turned, control, &PartMethods { solve, at: tilted_under })
     };
     let (load_factor, model) = proved(model, toward, load_factor, |l| l.value)?;
     Ok(Tilt { toward, load_factor, model, dry: None })
@@ -112,8 +126,8 @@ fn tilted_under(part: &Part, tilt: f64) -> Model {
 }
 
 /// The tilt at which a part falls whose joints have strengths, as a load factor in its own units.
-fn tilted_part(part: &Part, control: &Control) -> LoadFactor {
-    let at = |tilt: f64| limit::of_part(&tilted_joints(part, tilt), control);
+fn tilted_part(part: &Part, control: &Control, near: &mut Option<Passed>) -> LoadFactor {
+    let at = |tilt: f64| limit::of_part_near(&tilted_joints(part, tilt), control, near);
     let found = |l: &LoadFactor| l.found().map(|v| part.units.load_factor(v));
     match own_answer(0.0, at, found) {
         // Joints at the tilt itself differ by what is left of the search from those that it was
@@ -211,7 +225,7 @@ const OWN_ANSWER: f64 = 0.01 * tolerance::LOAD_FACTOR_WIDTH;
 /// A load factor that is the tangent of its own tilt. `Err` is the last answer where there is none.
 fn own_answer<T>(
     start: f64,
-    at: impl Fn(f64) -> T,
+    mut at: impl FnMut(f64) -> T,
     value: impl Fn(&T) -> Option<f64>,
 ) -> Result<T, T> {
     let mut tilt = start;

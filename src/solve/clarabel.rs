@@ -130,6 +130,7 @@ impl Session {
             status,
             trace,
             seconds,
+            passed: None,
         }
     }
 }

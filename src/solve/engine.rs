@@ -1,7 +1,7 @@
 //! A session with the engine that the settings name; clarabel takes what is not made like a program
 //! of contacts.
 
-use super::{EngineSettings, Settings, Solution, clarabel, interior};
+use super::{EngineSettings, Passed, Settings, Solution, clarabel, interior};
 use crate::program::ConicProgram;
 
 /// A program that is solved several times with changed right-hand sides and objectives.
@@ -40,6 +40,15 @@ impl Session {
         match self {
             Self::Clarabel(s) => s.set_objective(objective),
             Self::Interior(s) => s.set_objective(objective),
+        }
+    }
+
+    /// Lets the next solve begin near a point that a program alike passed; false where the engine has no
+    /// use for it.
+    pub fn begin_near(&mut self, passed: &Passed) -> bool {
+        match self {
+            Self::Clarabel(_) => false,
+            Self::Interior(s) => s.begin_near(passed),
         }
     }
 

@@ -14,7 +14,7 @@ pub use self::{
     fronts::Fronts,
     krylov::Blocks,
     lu::Lu,
-    watched::{Session, solve},
+    watched::{Session, solve, solve_near},
 };
 
 pub use crate::{
@@ -120,6 +120,19 @@ pub struct Solution {
     pub trace: Vec<Iteration>,
     /// Seconds, set-up included.
     pub seconds: f64,
+    /// A point on the way, where that of a program alike may begin; not every engine passes one.
+    pub passed: Option<Passed>,
+}
+
+/// A point inside the cones that an engine passed on its way.
+#[derive(Clone, Debug)]
+pub struct Passed {
+    /// Primal variables.
+    pub x: Vec<f64>,
+    /// Slack of the rows; zero in those of equalities.
+    pub slack: Vec<f64>,
+    /// Multipliers.
+    pub z: Vec<f64>,
 }
 
 impl Solution {

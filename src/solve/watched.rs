@@ -2,7 +2,7 @@
 //! factoring a large program can take minutes. Under a time limit it runs on a thread of its own,
 //! which is left to itself when it does not answer in time; what was found before is not lost then.
 
-use super::{Settings, Solution, Status, engine};
+use super::{Passed, Settings, Solution, Status, engine};
 use crate::{deadline::Deadline, program::ConicProgram};
 use std::{
     sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel},
@@ -19,8 +19,16 @@ const STEP: f64 = 0.05;
 
 /// Solves a program.
 pub fn solve(program: &ConicProgram, settings: &Settings) -> Solution {
-    Session::new(program, settings)
-        .map_or_else(|| none(Status::Refused), |mut session| session.solve())
+    solve_near(program, settings, None)
+}
+
+/// The same from near a point that a program alike passed, if there is one.
+pub fn solve_near(program: &ConicProgram, settings: &Settings, passed: Option<Passed>) -> Solution {
+    let Some(mut session) = Session::new(program, settings) else { return none(Status::Refused) };
+    if let Some(passed) = passed {
+        session.begin_near(passed);
+    }
+    session.solve()
 }
 
 /// A program that is solved several times with changed right-hand sides and objectives: ordering
@@ -36,6 +44,7 @@ enum Runner {
 enum Order {
     Rhs(Vec<f64>),
     Objective(Vec<f64>),
+    BeginNear(Passed),
     Solve,
 }
 
@@ -80,6 +89,17 @@ impl Session {
             Runner::Inline(session) => session.set_objective(objective),
             Runner::Threaded { .. } => {
                 matches!(self.ask(Order::Objective(objective.to_vec())), Some(Answer::Done(true)))
+            }
+        }
+    }
+
+    /// Lets the next solve begin near a point that a program alike passed; false where the engine has no
+    /// use for it.
+    pub fn begin_near(&mut self, passed: Passed) -> bool {
+        match &mut self.0 {
+            Runner::Inline(session) => session.begin_near(&passed),
+            Runner::Threaded { .. } => {
+                matches!(self.ask(Order::BeginNear(passed)), Some(Answer::Done(true)))
             }
         }
     }
@@ -130,8 +150,11 @@ fn serve(
             (Order::Objective(objective), Some(session)) => {
                 Answer::Done(session.set_objective(&objective))
             }
+            (Order::BeginNear(passed), Some(session)) => Answer::Done(session.begin_near(&passed)),
             (Order::Solve, None) => Answer::Solved(none(Status::Refused)),
-            (Order::Rhs(_) | Order::Objective(_), None) => Answer::Done(false),
+            (Order::Rhs(_) | Order::Objective(_) | Order::BeginNear(_), None) => {
+                Answer::Done(false)
+            }
         };
         if outbox.send(answer).is_err() {
             return;
@@ -140,7 +163,7 @@ fn serve(
 }
 
 fn none(status: Status) -> Solution {
-    Solution { x: Vec::new(), z: Vec::new(), status, trace: Vec::new(), seconds: 0.0 }
+    Solution { x: Vec::new(), z: Vec::new(), status, trace: Vec::new(), seconds: 0.0, passed: None }
 }
 
 #[cfg(test)]

@@ -18,8 +18,14 @@ mod reduced;
 mod step;
 mod structure;
 
-use self::{newton::Point, path::Data, reduced::Reduced, structure::Structure};
-use super::{Settings, Solution, Status};
+use self::{
+    cones::Cones,
+    newton::Point,
+    path::{Data, Inside, greatest},
+    reduced::Reduced,
+    structure::Structure,
+};
+use super::{Passed, Settings, Solution, Status};
 use crate::program::ConicProgram;
 use std::time::Instant;
 
@@ -34,9 +40,18 @@ pub struct Session {
     start: Instant,
     /// How the unknowns are held ([`path::HELD`] or zero), once those of a solve grew without bound.
     held: Option<f64>,
-    /// A point well inside that the last solve passed, where the next may begin.
-    warm: Option<(Point, Vec<f64>)>,
+    /// Where the next solve begins: a point that the last solve passed.
+    warm: Option<Inside>,
+    /// The same for the next solve alone, of another program; what does not lead to an answer from
+    /// there is solved from its own start.
+    near: Option<Inside>,
 }
+
+/// A point of another program is moved this × the greatest entry inside every cone. Larger: a start as
+/// poor as without. Smaller: first steps that end at once; eight tilts of 4,000 grains take 47
+/// iterations with this, 49 with ten times, 97 with a hundred times as much, 161 without, and 85 each
+/// from its own start.
+const ROOM: f64 = 1e-3;
 
 impl Session {
     /// Sets a program up; `None` where it is not one of contacts.
@@ -56,7 +71,32 @@ impl Session {
             start,
             held: None,
             warm: None,
+            near: None,
         })
+    }
+
+    /// Where the next solve begins: near a point that a program alike passed; false where that has other
+    /// sizes.
+    pub fn begin_near(&mut self, passed: &Passed) -> bool {
+        let st = &self.structure;
+        let [x, slack, z] = [&passed.x, &passed.slack, &passed.z].map(Vec::len);
+        let fits = x == self.objective.len() && slack == self.rhs.len() && z == slack;
+        if fits {
+            let cones = Cones::new(&st.cones);
+            let inside = |mut v: Vec<f64>| {
+                let room = ROOM * greatest(&v);
+                cones.inward(&mut v, room);
+                v
+            };
+            let point = Point {
+                x: pick(&passed.x, &st.variables),
+                t: pick(&passed.x, &st.border),
+                y: pick(&passed.z, &st.equalities),
+                z: inside(pick(&passed.z, &st.cone_rows)),
+            };
+            self.near = Some((point, inside(pick(&passed.slack, &st.cone_rows))));
+        }
+        fits
     }
 
     /// Changes the right-hand side; false where it has another length.
@@ -79,49 +119,65 @@ impl Session {
 
     /// Solves the program as it stands.
     pub fn solve(&mut self) -> Solution {
-        let s = &self.structure;
-        let pick = |from: &[f64], at: &[usize]| at.iter().map(|&k| from[k]).collect::<Vec<f64>>();
+        let st = &self.structure;
         let data = Data {
-            c: pick(&self.objective, &s.variables),
-            c_border: pick(&self.objective, &s.border),
-            b: pick(&self.rhs, &s.equalities),
-            h: pick(&self.rhs, &s.cone_rows),
+            c: pick(&self.objective, &st.variables),
+            c_border: pick(&self.objective, &st.border),
+            b: pick(&self.rhs, &st.equalities),
+            h: pick(&self.rhs, &st.cone_rows),
         };
-        let mut follow = |held, warm: &mut _| {
-            let (reduced, settings, mut trace) = (&mut self.reduced, &self.settings, Vec::new());
-            let (found, status) =
-                path::follow(s, reduced, &data, settings, (self.start, held), warm, &mut trace);
-            (found, status, trace)
+        let mut follow = |held, from| {
+            path::follow(st, &mut self.reduced, &data, &self.settings, (self.start, held), from)
         };
-        let (mut found, mut status, mut trace) = follow(self.held.unwrap_or(0.0), &mut self.warm);
-        if self.held.is_none() && path::has_grown(&found, status) {
-            let mut warm = None;
-            let (other, word, mut more) = follow(path::HELD, &mut warm);
-            let better = word == Status::Solved
-                || (word == Status::AlmostSolved && status == Status::Stalled);
-            // The last iteration is that of the answer; what does not help is not tried again.
-            if better {
-                trace.append(&mut more);
-                (found, status, self.held, self.warm) = (other, word, Some(path::HELD), warm);
-            } else {
-                more.append(&mut trace);
-                (trace, self.held) = (more, Some(0.0));
-            }
+        let held = self.held.unwrap_or(0.0);
+        let near = self.near.take();
+        let is_near = near.is_some();
+        let mut done = follow(held, near.or_else(|| self.warm.take()));
+        if is_near && done.status == Status::Stalled {
+            let other = follow(held, None);
+            done = other.after(done);
+        }
+        if self.held.is_none() && done.has_grown() {
+            let other = follow(path::HELD, None);
+            let better = other.status == Status::Solved
+                || (other.status == Status::AlmostSolved && done.status == Status::Stalled);
+            // What does not help is not tried again.
+            self.held = Some(if better { path::HELD } else { 0.0 });
+            done = if better { other.after(done) } else { done.after(other) };
         }
         let (mut x, mut z) = (Vec::new(), Vec::new());
-        if let Some(p) = found {
-            (x, z) = (vec![0.0; self.objective.len()], vec![0.0; self.rhs.len()]);
-            let put = |to: &mut [f64], at: &[usize], from: &[f64]| {
-                at.iter().zip(from).for_each(|(&k, v)| to[k] = *v)
-            };
-            put(&mut x, &s.variables, &p.x);
-            put(&mut x, &s.border, &p.t);
-            put(&mut z, &s.equalities, &p.y);
-            put(&mut z, &s.cone_rows, &p.z);
+        if let Some(p) = done.point {
+            (x, z) = self.spread(&p);
         }
+        let passed = done.early.map(|(p, s)| {
+            let (x, z) = self.spread(&p);
+            let mut slack = vec![0.0; z.len()];
+            put(&mut slack, &self.structure.cone_rows, &s);
+            Passed { x, slack, z }
+        });
+        self.warm = done.late;
         let seconds = std::mem::replace(&mut self.start, Instant::now()).elapsed().as_secs_f64();
-        Solution { x, z, status, trace, seconds }
+        Solution { x, z, status: done.status, trace: done.trace, seconds, passed }
     }
+
+    /// Variables and multipliers of a point, in the order of the program.
+    fn spread(&self, p: &Point) -> (Vec<f64>, Vec<f64>) {
+        let st = &self.structure;
+        let (mut x, mut z) = (vec![0.0; self.objective.len()], vec![0.0; self.rhs.len()]);
+        put(&mut x, &st.variables, &p.x);
+        put(&mut x, &st.border, &p.t);
+        put(&mut z, &st.equalities, &p.y);
+        put(&mut z, &st.cone_rows, &p.z);
+        (x, z)
+    }
+}
+
+fn pick(from: &[f64], at: &[usize]) -> Vec<f64> {
+    at.iter().map(|&k| from[k]).collect()
+}
+
+fn put(to: &mut [f64], at: &[usize], from: &[f64]) {
+    at.iter().zip(from).for_each(|(&k, v)| to[k] = *v);
 }
 
 #[cfg(test)]

@@ -23,7 +23,12 @@ const BELOW: f64 = 0.05;
 /// Where the next solve of a session begins: at the first point of the last one with no more than
 /// this of its error left. Larger: nearly from the start. Smaller: so near the boundary that
 /// changed limits leave no room.
-const WARM: f64 = 1e-5;
+const LATE: f64 = 1e-5;
+
+/// Where the solve of another program alike begins, moved inward once more: at the first point with
+/// no more than this of its error left. Larger: nearly from the start. Smaller: nearer to the
+/// boundary than what differs between two directions of a tilt, and more steps than without.
+const EARLY: f64 = 1e-2;
 
 /// The gap counts relative to the objective, or to this where that is smaller: an unbalance may be
 /// zero. Larger: load factors far below the natural one lose digits. Smaller: iterations at an
@@ -54,10 +59,33 @@ const RATES_INSIDE: f64 = 2.5;
 /// between others. Larger: such programs stay unsolved. Smaller: others that stall are solved twice.
 const GROWN: f64 = 1e3;
 
-/// Whether a path may have stalled because unknowns grew without bound.
-pub(super) fn has_grown(found: &Option<Point>, status: Status) -> bool {
-    matches!(status, Status::Stalled | Status::AlmostSolved)
-        && found.as_ref().is_some_and(|p| greatest(&p.x) > GROWN)
+/// A point inside the cones, and its slack there.
+pub(super) type Inside = (Point, Vec<f64>);
+
+/// Where a path led.
+pub(super) struct Followed {
+    /// The best point.
+    pub point: Option<Point>,
+    pub status: Status,
+    /// The first point after the start with no more than [`EARLY`] of its error left, and the first of
+    /// all with no more than [`LATE`].
+    pub early: Option<Inside>,
+    pub late: Option<Inside>,
+    pub trace: Vec<Iteration>,
+}
+
+impl Followed {
+    /// Whether it may have stalled because unknowns grew without bound.
+    pub fn has_grown(&self) -> bool {
+        matches!(self.status, Status::Stalled | Status::AlmostSolved)
+            && self.point.as_ref().is_some_and(|p| greatest(&p.x) > GROWN)
+    }
+
+    /// This one, with the iterations of another before its own: the last is that of the answer.
+    pub fn after(mut self, mut other: Self) -> Self {
+        other.trace.append(&mut self.trace);
+        Self { trace: other.trace, ..self }
+    }
 }
 
 /// Objective and right-hand sides.
@@ -70,7 +98,7 @@ pub(super) struct Data {
     pub h: Vec<f64>,
 }
 
-fn greatest(v: &[f64]) -> f64 {
+pub(super) fn greatest(v: &[f64]) -> f64 {
     // A NaN is as great as can be.
     v.iter().fold(0.0, |m, v| if v.is_nan() { f64::INFINITY } else { f64::max(m, v.abs()) })
 }
@@ -135,135 +163,140 @@ fn begin(
     Some((Point { x: primal.x, t: primal.t, y: dual.y, z: inside(dual.z, RATES_INSIDE) }, s))
 }
 
-/// Solves the program from the warm point, if there is one. `start` is when this solve began. Every
-/// step is that of the program with `½ ρ ‖x − x₀‖²` added, where `x₀` is the point that it starts from
-/// and `ρ` is `held` × the mean of the cones' products (S. Pougkakiotis and J. Gondzio 2021): it ends
-/// in the same places, and where the solutions are an unbounded set it ends.
+/// Solves the program from a point inside the cones, or from its own start. `start` is when this solve
+/// began. Every step is that of the program with `½ ρ ‖x − x₀‖²` added, where `x₀` is the point that it
+/// starts from and `ρ` is `held` × the mean of the cones' products (S. Pougkakiotis and J. Gondzio
+/// 2021): it ends in the same places, and where the solutions are an unbounded set it ends.
 pub(super) fn follow(
     st: &Structure,
     reduced: &mut Reduced,
     data: &Data,
     settings: &Settings,
     (start, held): (Instant, f64),
-    warm: &mut Option<(Point, Vec<f64>)>,
-    trace: &mut Vec<Iteration>,
-) -> (Option<Point>, Status) {
+    from: Option<Inside>,
+) -> Followed {
     let mut cones = Cones::new(&st.cones);
     let degree = cones.degree() as f64;
-    let Some((mut p, mut s)) = warm.take().or_else(|| begin(st, reduced, &mut cones, data)) else {
-        return (None, Status::Stalled);
-    };
     let mut best: Option<(f64, Point)> = None;
+    let (mut early, mut late, mut trace) = (None, None, Vec::new());
+    let Some((mut p, mut s)) = from.or_else(|| begin(st, reduced, &mut cones, data)) else {
+        return Followed { point: None, status: Status::Stalled, early, late, trace };
+    };
     let mut since = 0;
     let almost = |best: &Option<(f64, Point)>| {
         best.as_ref().is_some_and(|b| b.0 <= ALMOST * settings.tolerance)
     };
-    let give = |best: Option<(f64, Point)>, status| {
-        let status =
-            if status == Status::Stalled && almost(&best) { Status::AlmostSolved } else { status };
-        (best.map(|b| b.1), status)
+    let mut status = 'path: {
+        for step in 0..=settings.iterations {
+            let r = residual(st, data, &p, &s);
+            let quadratic: f64 = p.x.iter().zip(&st.quadratic).map(|(x, q)| q * x * x).sum();
+            let linear = dot(&data.c, &p.x) + dot(&data.c_border, &p.t);
+            let primal = 0.5 * quadratic + linear;
+            let dual = -0.5 * quadratic - dot(&data.b, &p.y) - dot(&data.h, &p.z);
+            let gap = dot(&s, &p.z);
+            let primal_residual = greatest(&r.y).max(greatest(&r.z))
+                / 1f64.max(greatest(&data.b)).max(greatest(&data.h));
+            let dual_residual = greatest(&r.x).max(greatest(&r.t))
+                / 1f64.max(greatest(&data.c)).max(greatest(&data.c_border));
+            trace.push(Iteration {
+                seconds: start.elapsed().as_secs_f64(),
+                primal,
+                dual,
+                primal_residual,
+                dual_residual,
+            });
+            let merit = (gap / LEAST_OBJECTIVE.max(primal.abs().min(dual.abs())))
+                .max(primal_residual)
+                .max(dual_residual);
+            if merit.is_nan() || merit.is_infinite() {
+                break 'path Status::Stalled;
+            }
+            if step > 0 && early.is_none() && merit <= EARLY {
+                early = Some((p.clone(), s.clone()));
+            }
+            if late.is_none() && merit <= LATE {
+                late = Some((p.clone(), s.clone()));
+            }
+            if best.as_ref().is_none_or(|b| merit < b.0) {
+                best = Some((merit, p.clone()));
+                since = 0;
+            } else {
+                since += 1;
+            }
+            if merit <= settings.tolerance {
+                break 'path Status::Solved;
+            }
+            if since > if almost(&best) { 1 } else { PATIENCE } {
+                break 'path Status::Stalled;
+            }
+            if settings.deadline.is_over() {
+                // The point to start from is no answer: its rates are far from admissible, and a bound
+                // corrected to first order would be untrue.
+                best = best.filter(|_| step > 0);
+                break 'path Status::Limit;
+            }
+            if !cones.scale(&s, &p.z) {
+                break 'path Status::Stalled;
+            }
+            let mu = gap / degree;
+            reduced.proximal = held * mu;
+            let Some(mut newton) = Newton::new(st, reduced, &cones) else {
+                break 'path Status::Stalled;
+            };
+            // Residuals that are small already stay so.
+            let enough = BELOW * settings.tolerance;
+            // Predictor: a_z = −r_z − W u with u = −λ, so that W u = −s.
+            let mut a = minus(&r);
+            add(&mut a.z, 1.0, &s);
+            let predictor = newton.solve(&a, ROUGH, 0.0);
+            let ds = slack(st, &predictor, &r);
+            let (ap, ad) = steps(&cones, st, (&s, &ds), (&p.z, &predictor.z), 1.0);
+            let after: f64 = s
+                .iter()
+                .zip(&ds)
+                .zip(p.z.iter().zip(&predictor.z))
+                .map(|((s, ds), (z, dz))| (s + ap * ds) * (z + ad * dz))
+                .sum();
+            let sigma = (after / gap).clamp(0.0, 1.0).powi(3);
+            let share = share_of_the_way(sigma);
+            // Corrector: λ ∘ u = −λ∘λ − (W⁻¹ ds) ∘ (W dz) + σ μ e.
+            let mut u = ds;
+            cones.over(&mut u);
+            let mut w_dz = predictor.z;
+            cones.times(&mut w_dz);
+            cones.product(&w_dz, &mut u);
+            let mut square = cones.lambda.clone();
+            cones.product(&cones.lambda, &mut square);
+            u.iter_mut().zip(&square).for_each(|(u, l)| *u = -*u - l);
+            cones.add_unit(&mut u, sigma * mu);
+            cones.divide(&mut u);
+            cones.times(&mut u);
+            let mut a = minus(&r);
+            add(&mut a.z, -1.0, &u);
+            let mut d = newton.solve(&a, EXACT, enough);
+            let mut ds = slack(st, &d, &r);
+            let (mut ap, mut ad) = steps(&cones, st, (&s, &ds), (&p.z, &d.z), share);
+            further(
+                &mut newton,
+                (&s, &p.z),
+                (sigma * mu, share),
+                (&mut d, &mut ds),
+                (&mut ap, &mut ad),
+            );
+            if ap.max(ad) < LEAST_STEP || ap.is_nan() || ad.is_nan() {
+                break 'path Status::Stalled;
+            }
+            (ap, ad) = kept_inside(&cones, st, (&s, &ds), (&p.z, &d.z), (ap, ad));
+            add(&mut p.x, ap, &d.x);
+            add(&mut p.t, ap, &d.t);
+            add(&mut s, ap, &ds);
+            add(&mut p.y, ad, &d.y);
+            add(&mut p.z, ad, &d.z);
+        }
+        Status::Limit
     };
-    for step in 0..=settings.iterations {
-        let r = residual(st, data, &p, &s);
-        let quadratic: f64 = p.x.iter().zip(&st.quadratic).map(|(x, q)| q * x * x).sum();
-        let linear = dot(&data.c, &p.x) + dot(&data.c_border, &p.t);
-        let primal = 0.5 * quadratic + linear;
-        let dual = -0.5 * quadratic - dot(&data.b, &p.y) - dot(&data.h, &p.z);
-        let gap = dot(&s, &p.z);
-        let primal_residual =
-            greatest(&r.y).max(greatest(&r.z)) / 1f64.max(greatest(&data.b)).max(greatest(&data.h));
-        let dual_residual = greatest(&r.x).max(greatest(&r.t))
-            / 1f64.max(greatest(&data.c)).max(greatest(&data.c_border));
-        trace.push(Iteration {
-            seconds: start.elapsed().as_secs_f64(),
-            primal,
-            dual,
-            primal_residual,
-            dual_residual,
-        });
-        let merit = (gap / LEAST_OBJECTIVE.max(primal.abs().min(dual.abs())))
-            .max(primal_residual)
-            .max(dual_residual);
-        if merit.is_nan() || merit.is_infinite() {
-            return give(best, Status::Stalled);
-        }
-        if warm.is_none() && merit <= WARM {
-            *warm = Some((p.clone(), s.clone()));
-        }
-        if best.as_ref().is_none_or(|b| merit < b.0) {
-            best = Some((merit, p.clone()));
-            since = 0;
-        } else {
-            since += 1;
-        }
-        if merit <= settings.tolerance {
-            return give(best, Status::Solved);
-        }
-        if since > if almost(&best) { 1 } else { PATIENCE } {
-            return give(best, Status::Stalled);
-        }
-        if settings.deadline.is_over() {
-            // The point to start from is no answer: its rates are far from admissible, and a bound
-            // corrected to first order would be untrue.
-            return give(best.filter(|_| step > 0), Status::Limit);
-        }
-        if !cones.scale(&s, &p.z) {
-            return give(best, Status::Stalled);
-        }
-        let mu = gap / degree;
-        reduced.proximal = held * mu;
-        let Some(mut newton) = Newton::new(st, reduced, &cones) else {
-            return give(best, Status::Stalled);
-        };
-        // Residuals that are small already stay so.
-        let enough = BELOW * settings.tolerance;
-        // Predictor: a_z = −r_z − W u with u = −λ, so that W u = −s.
-        let mut a = minus(&r);
-        add(&mut a.z, 1.0, &s);
-        let predictor = newton.solve(&a, ROUGH, 0.0);
-        let ds = slack(st, &predictor, &r);
-        let (ap, ad) = steps(&cones, st, (&s, &ds), (&p.z, &predictor.z), 1.0);
-        let after: f64 = s
-            .iter()
-            .zip(&ds)
-            .zip(p.z.iter().zip(&predictor.z))
-            .map(|((s, ds), (z, dz))| (s + ap * ds) * (z + ad * dz))
-            .sum();
-        let sigma = (after / gap).clamp(0.0, 1.0).powi(3);
-        let share = share_of_the_way(sigma);
-        // Corrector: λ ∘ u = −λ∘λ − (W⁻¹ ds) ∘ (W dz) + σ μ e.
-        let mut u = ds;
-        cones.over(&mut u);
-        let mut w_dz = predictor.z;
-        cones.times(&mut w_dz);
-        cones.product(&w_dz, &mut u);
-        let mut square = cones.lambda.clone();
-        cones.product(&cones.lambda, &mut square);
-        u.iter_mut().zip(&square).for_each(|(u, l)| *u = -*u - l);
-        cones.add_unit(&mut u, sigma * mu);
-        cones.divide(&mut u);
-        cones.times(&mut u);
-        let mut a = minus(&r);
-        add(&mut a.z, -1.0, &u);
-        let mut d = newton.solve(&a, EXACT, enough);
-        let mut ds = slack(st, &d, &r);
-        let (mut ap, mut ad) = steps(&cones, st, (&s, &ds), (&p.z, &d.z), share);
-        further(
-            &mut newton,
-            (&s, &p.z),
-            (sigma * mu, share),
-            (&mut d, &mut ds),
-            (&mut ap, &mut ad),
-        );
-        if ap.max(ad) < LEAST_STEP || ap.is_nan() || ad.is_nan() {
-            return give(best, Status::Stalled);
-        }
-        (ap, ad) = kept_inside(&cones, st, (&s, &ds), (&p.z, &d.z), (ap, ad));
-        add(&mut p.x, ap, &d.x);
-        add(&mut p.t, ap, &d.t);
-        add(&mut s, ap, &ds);
-        add(&mut p.y, ad, &d.y);
-        add(&mut p.z, ad, &d.z);
+    if status == Status::Stalled && almost(&best) {
+        status = Status::AlmostSolved;
     }
-    give(best, Status::Limit)
+    Followed { point: best.map(|b| b.1), status, early, late, trace }
 }
