@@ -141,3 +141,72 @@ impl<'a> Tilts<'a> {
         Ok((!refused).then_some(DryTilt { model, load_factor }))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        analysis::tilt::tilt,
+        interface::prepare,
+        scene::read_str,
+        terms::{Bracket, Engine, Law, Outcome},
+    };
+
+    /// Towards two directions that no symmetry carries into each other: the second after the first, and
+    /// the second by itself. Engine and iterations of the first attempts, and the brackets.
+    fn second(text: String) -> [(Engine, usize, Bracket); 2] {
+        let model = prepare(&read_str("scene", text).unwrap().0).unwrap();
+        let control = Control { law: Law::Associative, ..Control::default() };
+        let toward = [Vector3::new(1.0, 0.3, 0.0), Vector3::new(1.0, 0.1, 0.0)];
+        let after = Tilts::of(&model, &control).bounds(&toward).unwrap().remove(1);
+        let alone = tilt(&model, toward[1], &control).unwrap();
+        [after, alone].map(|Tilt { load_factor, .. }| {
+            assert_eq!(load_factor.outcome, Outcome::Found);
+            let first = &load_factor.attempts[0];
+            (first.engine, first.iterations, load_factor.bracket)
+        })
+    }
+
+    #[test]
+    fn grains_begin_near_the_direction_before_and_are_answered_as_by_themselves() {
+        // Layers of balls, each on three, apart from their neighbours at the same level; large enough for
+        // the engine that can begin anywhere.
+        let (radius, apart, layers) = (0.5, 1.04, 14);
+        let rise = (4.0 * radius * radius - apart * apart / 3.0_f64).sqrt();
+        let mut blocks = Vec::new();
+        for level in 0..layers {
+            for i in 0..layers - level {
+                for j in 0..layers - level - i {
+                    let [i, j, k] = [i, j, level].map(f64::from);
+                    let x = apart * (i + 0.5 * j + 0.5 * k);
+                    let y = apart * 0.75_f64.sqrt() * (j + k / 3.0);
+                    blocks.push(format!(
+                        r#"{{ "id": "b{}", "support": {}, "shape": {{ "sphere": {{ "radius": {radius} }} }}, "at": [{x}, {y}, {}] }}"#,
+                        blocks.len(),
+                        level == 0,
+                        rise * k
+                    ));
+                }
+            }
+        }
+        let [after, alone] = second(format!(
+            r#"{{ "format": "voussoir-scene/1", "joints": {{ "default": {{ "friction": 0.9 }} }}, "blocks": [{}] }}"#,
+            blocks.join(",")
+        ));
+        assert_eq!([after.0, alone.0], [Engine::Interior; 2]);
+        assert!(after.1 < alone.1, "{} of {}", after.1, alone.1);
+        let lower = after.2.lower.max(alone.2.lower);
+        assert!(lower <= after.2.upper.min(alone.2.upper), "{after:?} {alone:?}");
+    }
+
+    #[test]
+    fn walls_begin_where_they_would_by_themselves() {
+        let [after, alone] = second(
+            r#"{ "format": "voussoir-scene/1", "joints": { "default": { "friction": 0.6 } },
+            "templates": [ { "wall": { "size": [1, 0.5, 0.4], "courses": 14, "blocks": 14, "first": "half", "base": "course" } } ] }"#
+                .to_string(),
+        );
+        assert_eq!(after.0, Engine::Interior);
+        assert_eq!(after, alone);
+    }
+}

@@ -127,7 +127,9 @@ pub(super) fn of_part(model: &Model, control: &Control) -> LoadFactor {
     of_part_near(model, control, &mut None)
 }
 
-/// The same, begun near what the program of other loads passed; this one's point is left there.
+/// The same, begun near what the program of other loads passed where blocks touch in points; this one's
+/// point is left there. On walls, whose forces are far from determined by balance, it costs more than it
+/// saves: 23 iterations in place of 19 on one of 14 × 14.
 pub(super) fn of_part_near(
     model: &Model,
     control: &Control,
@@ -172,10 +174,10 @@ pub(super) fn of_part_near(
         if control.deadline.is_over() {
             break;
         }
-        let from = if index == 0 { near.take() } else { None };
+        let from = if index == 0 && points { near.take() } else { None };
         let way = (step, scale, control.deadline);
         let passed = climb(model, &mut statics, way, from, &mut answer);
-        if index == 0 {
+        if index == 0 && points {
             *near = passed;
         }
         // Without a value the bracket is as wide as can be.

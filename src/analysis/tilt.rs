@@ -17,7 +17,6 @@ use super::{
 use crate::{
     error::InputError,
     interface::{Model, Part},
-    solve::Passed,
     strength::laws::are_dry,
     tolerance,
     verdict::{
@@ -84,10 +83,11 @@ pub(super) fn tilt_near(
         };
         parts::limit::limit_by(&turned, control, &PartMethods { solve, at: parts::limit::under })
     } else {
-        let solve = |part: &Part, control: &Control| {
-            near.part(part, |near| tilted_part(part, control, near))
-        };
-        parts::limit::limit_by(&turned, control, &PartMethods { solve, at: tilted_under })
+        parts::limit::limit_by(
+            &turned,
+            control,
+            &PartMethods { solve: tilted_part, at: tilted_under },
+        )
     };
     let (load_factor, model) = proved(model, toward, load_factor, |l| l.value)?;
     Ok(Tilt { toward, load_factor, model, dry: None })
@@ -126,8 +126,8 @@ fn tilted_under(part: &Part, tilt: f64) -> Model {
 }
 
 /// The tilt at which a part falls whose joints have strengths, as a load factor in its own units.
-fn tilted_part(part: &Part, control: &Control, near: &mut Option<Passed>) -> LoadFactor {
-    let at = |tilt: f64| limit::of_part_near(&tilted_joints(part, tilt), control, near);
+fn tilted_part(part: &Part, control: &Control) -> LoadFactor {
+    let at = |tilt: f64| limit::of_part(&tilted_joints(part, tilt), control);
     let found = |l: &LoadFactor| l.found().map(|v| part.units.load_factor(v));
     match own_answer(0.0, at, found) {
         // Joints at the tilt itself differ by what is left of the search from those that it was
@@ -225,7 +225,7 @@ const OWN_ANSWER: f64 = 0.01 * tolerance::LOAD_FACTOR_WIDTH;
 /// A load factor that is the tangent of its own tilt. `Err` is the last answer where there is none.
 fn own_answer<T>(
     start: f64,
-    mut at: impl FnMut(f64) -> T,
+    at: impl Fn(f64) -> T,
     value: impl Fn(&T) -> Option<f64>,
 ) -> Result<T, T> {
     let mut tilt = start;

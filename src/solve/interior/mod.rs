@@ -135,7 +135,8 @@ impl Session {
         let mut done = follow(held, near.or_else(|| self.warm.take()));
         if is_near && done.status == Status::Stalled {
             let other = follow(held, None);
-            done = other.after(done);
+            // Where time ends before the first step, there is no other.
+            done = if other.point.is_some() { other.after(done) } else { done.after(other) };
         }
         if self.held.is_none() && done.has_grown() {
             let other = follow(path::HELD, None);

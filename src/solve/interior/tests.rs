@@ -112,6 +112,36 @@ fn both_engines_find_the_same_state_again_and_again() {
 }
 
 #[test]
+fn a_program_alike_begins_near_what_another_passed() {
+    let [one, other] =
+        [[0.2, 1.0, 0.0], [-0.2, 1.0, 0.0]].map(|direction| pushed(14, 14, direction));
+    let session = || Session::new(&other, &settings(EngineSettings::Interior)).unwrap();
+    let passed = own(&one, &settings(EngineSettings::Interior)).passed.unwrap();
+    let last = other.matrix.columns - 1;
+    let alone = session().solve();
+    let mut near = session();
+    assert!(near.begin_near(&passed));
+    let found = near.solve();
+    assert_eq!((alone.status, found.status), (Status::Solved, Status::Solved));
+    assert!((alone.x[last] - found.x[last]).abs() < 1e-7, "{} {}", alone.x[last], found.x[last]);
+    assert!(
+        found.trace.len() < alone.trace.len(),
+        "{} of {}",
+        found.trace.len(),
+        alone.trace.len()
+    );
+    // What leads nowhere is solved from its own start.
+    let mut poor = session();
+    assert!(poor.begin_near(&Passed { x: vec![f64::NAN; passed.x.len()], ..passed.clone() }));
+    let found = poor.solve();
+    assert_eq!(found.status, Status::Solved);
+    assert_eq!(found.x[last].to_bits(), alone.x[last].to_bits());
+    assert_eq!(found.trace.len(), alone.trace.len() + 1);
+    // A point of another program is none of this one.
+    assert!(!session().begin_near(&Passed { z: Vec::new(), ..passed }));
+}
+
+#[test]
 fn the_same_program_gives_the_same_bits() {
     let program = pushed(6, 6, [1.0, 0.0, 0.0]);
     let bits = || {
