@@ -10,7 +10,9 @@ use super::{
     Proved,
     assess::{least_unbalance, wedges},
     attempt::{Control, Rung, is_large, run, steps},
-    mend, parts,
+    mend,
+    near::Near,
+    parts,
 };
 use crate::{
     assembly::Wrench,
@@ -119,7 +121,7 @@ pub fn limit(model: &Model, control: &Control) -> Proved<LoadFactor> {
 
 /// The same without the check.
 pub(super) fn unproved(model: &Model, control: &Control) -> LoadFactor {
-    parts::limit::limit(model, control)
+    parts::limit::limit(model, control, &Near::default())
 }
 
 /// The same for one part.

@@ -78,10 +78,7 @@ pub(super) fn tilt_near(
     let (assembly, toward) = turned(&model.assembly, toward)?;
     let turned = Model::new(assembly, model.interfaces.clone());
     let load_factor = if are_dry(&turned.interfaces) {
-        let solve = |part: &Part, control: &Control| {
-            near.part(part, |near| limit::of_part_near(&part.model, control, near))
-        };
-        parts::limit::limit_by(&turned, control, &PartMethods { solve, at: parts::limit::under })
+        parts::limit::limit(&turned, control, near)
     } else {
         parts::limit::limit_by(
             &turned,

@@ -4,7 +4,9 @@ use super::{each, left_out, put_rates, scene_attempts, scene_forces, scene_rates
 use crate::{
     analysis::{
         Assessment, Attempt, Bracket, Control, Law, LoadFactor, Outcome,
-        assess::of_part as assess_part, limit::of_part as limit_part,
+        assess::of_part as assess_part,
+        limit::{of_part as limit_part, of_part_near as limit_part_near},
+        near::Near,
     },
     assembly::Wrench,
     interface::{self, Model, Part},
@@ -25,9 +27,12 @@ pub fn under(part: &Part, lambda: f64) -> Model {
     part.model.at_load_factor(part.units.own_load_factor(lambda))
 }
 
-/// The greatest multiple of the live load under which every part has admissible contact forces.
-pub fn limit(model: &Model, control: &Control) -> LoadFactor {
-    let solve = |part: &Part, control: &Control| limit_part(&part.model, control);
+/// The greatest multiple of the live load under which every part has admissible contact forces; each
+/// begins near what it passed under other loads.
+pub(in crate::analysis) fn limit(model: &Model, control: &Control, near: &Near) -> LoadFactor {
+    let solve = |part: &Part, control: &Control| {
+        near.part(part, |near| limit_part_near(&part.model, control, near))
+    };
     limit_by(model, control, &PartMethods { solve, at: under })
 }
 
