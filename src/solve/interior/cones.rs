@@ -134,6 +134,15 @@ impl Cones {
         }
     }
 
+    /// Greatest eigenvalue of `W⁻²` of one cone.
+    pub fn stiffness(&self, cone: &ConeAt) -> f64 {
+        let w = &self.scale[cone.rows()];
+        if !cone.round {
+            return w.iter().fold(0.0, |most, w| f64::max(most, 1.0 / (w * w)));
+        }
+        ((w[0] + norm(&w[1..])) / self.eta[cone.first]).powi(2)
+    }
+
     /// The scaling of one cone as a matrix, `W` or its inverse: column `k` into `to`.
     pub fn column(&self, cone: &ConeAt, k: usize, inverse: bool, to: &mut [f64]) {
         let w = &self.scale[cone.rows()];
@@ -354,6 +363,24 @@ mod tests {
         c.divide(&mut d);
         c.product(&c.lambda.clone(), &mut d);
         assert!(d.iter().zip(&S).all(|(a, b)| (a - b).abs() < 1e-13));
+    }
+
+    #[test]
+    fn the_stiffness_is_the_greatest_eigenvalue() {
+        let mut c = cones();
+        assert!(c.scale(&S, &Z));
+        let round = c.list[1];
+        // Along the axis through w̄: both roots of the cone's boundary in that plane.
+        let w = &c.scale[round.rows()];
+        let t = norm(&w[1..]);
+        let mut v = [0.0, 0.0, 1.0, -w[1] / t, -w[2] / t];
+        let before = v;
+        c.over(&mut v);
+        c.over(&mut v);
+        let most = c.stiffness(&round);
+        assert!(v[2..].iter().zip(&before[2..]).all(|(v, b)| (v - most * b).abs() < 1e-12 * most));
+        let rays = c.stiffness(&c.list[0]);
+        assert!((rays - Z[1] / S[1]).abs() < 1e-14 * rays, "{rays}");
     }
 
     #[test]

@@ -38,6 +38,11 @@ pub(super) const EXACT: f64 = 1e-11;
 /// The same for a direction that only tells how far one could go.
 pub(super) const ROUGH: f64 = 1e-3;
 
+/// A contact whose `W⁻²` has an eigenvalue above this takes its rates from its blocks, any other from
+/// its forces. Larger: the rates keep the rounding of forces times so much. Smaller: forces keep that
+/// of rates.
+const STIFF: f64 = 1.0;
+
 /// The factored system of one scaling.
 pub(super) struct Newton<'a> {
     pub structure: &'a Structure,
@@ -234,7 +239,25 @@ impl<'a> Newton<'a> {
         s.g.add(1.0, &d.x, &mut d.z);
         s.g_border.add(1.0, &d.t, &mut d.z);
         d.z = self.stiff(&d.z);
+        self.rates_of_stiff(a, &mut d);
         d
+    }
+
+    /// `dz = P dx + Eᵀ dy − a_x` instead, where a contact is stiffer than [`STIFF`] and each of its
+    /// variables has its own cone row, `Gᵀ dz = −dz`: there `W⁻²` multiplies the rounding of `G dx`,
+    /// and the rates of the blocks would no longer fit those of the contacts.
+    fn rates_of_stiff(&self, a: &Point, d: &mut Point) {
+        let s = self.structure;
+        let mut own: Vec<f64> =
+            d.x.iter().zip(&a.x).map(|(x, a)| self.reduced.proximal * x - a).collect();
+        s.e.add_transposed(1.0, &d.y, &mut own);
+        for block in s.blocks.iter().filter(|b| b.plain) {
+            let cone = &s.cones[block.cones[0]];
+            if self.cones.stiffness(cone) > STIFF {
+                d.z[cone.first..cone.first + cone.size]
+                    .copy_from_slice(&own[block.variables.clone()]);
+            }
+        }
     }
 
     /// What equalities and border rows still lack.

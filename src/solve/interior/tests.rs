@@ -112,6 +112,35 @@ fn both_engines_find_the_same_state_again_and_again() {
 }
 
 #[test]
+fn rates_fit_those_of_the_blocks_however_stiff_a_contact_is() {
+    let st = Structure::new(&pushed(5, 5, [0.6, 0.8, 0.0])).unwrap();
+    let mut reduced = reduced::Reduced::new(&st).unwrap();
+    let mut cones = Cones::new(&st.cones);
+    // Near the end of a path: every contact is about to slip.
+    let (mut s, mut z) = (vec![0.0; st.cone_rows.len()], vec![0.0; st.cone_rows.len()]);
+    for (k, cone) in st.cones.iter().enumerate() {
+        let (sin, cos) = (k as f64).sin_cos();
+        let slip = |n: f64, t: f64| [n, n * t * cos, n * t * sin];
+        s[cone.first..cone.first + cone.size].copy_from_slice(&slip(0.7, 1.0 - 1e-10)[..cone.size]);
+        z[cone.first..cone.first + cone.size].copy_from_slice(&slip(0.2, 1e-10 - 1.0)[..cone.size]);
+    }
+    assert!(cones.scale(&s, &z));
+    let mut newton = newton::Newton::new(&st, &mut reduced, &cones).unwrap();
+    let wave = |n: usize, by: f64| (0..n).map(|k| (by * k as f64).sin()).collect::<Vec<_>>();
+    let a = Point {
+        x: wave(st.variables.len(), 0.7),
+        t: wave(st.border.len(), 1.0),
+        y: wave(st.equalities.len(), 1.3),
+        z: s.clone(),
+    };
+    let d = newton.solve(&a, newton::EXACT, 0.0);
+    let mut lack = a.x.clone();
+    st.e.add_transposed(-1.0, &d.y, &mut lack);
+    st.g.add_transposed(-1.0, &d.z, &mut lack);
+    assert!(greatest(&lack) < 1e-12 * greatest(&d.z), "{} of {}", greatest(&lack), greatest(&d.z));
+}
+
+#[test]
 fn a_program_alike_begins_near_what_another_passed() {
     let [one, other] =
         [[0.2, 1.0, 0.0], [-0.2, 1.0, 0.0]].map(|direction| pushed(14, 14, direction));
