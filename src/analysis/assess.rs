@@ -12,7 +12,7 @@ use super::{
 use crate::{
     interface::{Model, floating, is_forest},
     program::{self, LiveLoad, Statics, StaticsOptions, Unknowns},
-    solve::EngineSettings,
+    solve::{EngineSettings, Settings},
     terms::{Attempt, Law},
     tolerance,
     verdict::{
@@ -88,6 +88,11 @@ const LADDER: [Rung; 8] = [
     // Grid 2, random 43. Without it none.
     Rung { even: true, tolerance: 1e-12, engine: EngineSettings::clarabel(1e-9), ..Rung::RATES },
 ];
+
+/// How exactly a least unbalance is sought that is far from zero. Larger: forces and mechanism leave
+/// more between the ends of its bracket. Smaller: large packings that fall take twice as many
+/// iterations.
+const FALLS: f64 = 1e-6;
 
 /// Tried first where the program is large.
 const LARGE: [Rung; 1] = [Rung { tolerance: 1e-10, ..Rung::INTERIOR }];
@@ -275,7 +280,7 @@ pub(super) fn least_unbalance(model: &Model, live: LiveLoad, control: &Control) 
         }
         let mut statics = step.scaled(&base);
         statics.sections = std::mem::take(&mut sections);
-        let settings = step.settings(control.deadline);
+        let settings = Settings { where_positive: FALLS, ..step.settings(control.deadline) };
         let build = |statics: &Statics| program::unbalance(statics, live, step.unknowns);
         let mut done = run(model, &mut statics, build, &settings, None);
         let (mut lower, mut upper) = (0.0, f64::INFINITY);

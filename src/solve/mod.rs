@@ -75,6 +75,9 @@ pub struct Settings {
     pub engine: EngineSettings,
     /// Tolerance on gap and feasibility, relative and absolute in the scaled program.
     pub tolerance: f64,
+    /// The same where it is the value's sign that counts, and the value, which cannot be negative, is
+    /// far from zero. The engine for programs of contacts heeds it.
+    pub where_positive: f64,
     /// Most iterations.
     pub iterations: u32,
     /// When all solves of a session together have to end.
@@ -86,6 +89,7 @@ impl Default for Settings {
         Self {
             engine: EngineSettings::default(),
             tolerance: 1e-10,
+            where_positive: 0.0,
             iterations: 200,
             deadline: Deadline::NEVER,
         }

@@ -42,6 +42,16 @@ const LEAST_STEP: f64 = 1e-6;
 /// More: time at the noise level.
 const PATIENCE: usize = 8;
 
+/// A value beyond this is far from zero ([`Settings::where_positive`]). Larger: more digits of it than
+/// its sign needs. Smaller: not all of the residuals are small beside it.
+const FAR_FROM_ZERO: f64 = 1e-3;
+
+/// No point satisfies the constraints of a linear program where the dual objective passes the primal
+/// one by this × its size (and one), and the dual residual is no more than that × this. Larger excess:
+/// packings that fall cost more iterations. Smaller, or more residual: others are given up.
+const BEYOND: f64 = 10.0;
+const BEYOND_RESIDUAL: f64 = 1e-5;
+
 /// Where the method runs on springs held by this × the mean of the cones' products, unknowns that
 /// nothing limits stay where they are. Larger: more iterations. Smaller: they grow until rounding
 /// of them is all that equilibrium has left.
@@ -223,8 +233,16 @@ pub(super) fn follow(
             } else {
                 since += 1;
             }
-            if merit <= settings.tolerance {
+            let positive = merit <= settings.where_positive && dual >= FAR_FROM_ZERO;
+            if positive || merit <= settings.tolerance {
                 break 'path Status::Solved;
+            }
+            let excess = dual - primal;
+            if st.quadratic.is_empty()
+                && excess > BEYOND * primal.abs().max(1.0)
+                && dual_residual <= BEYOND_RESIDUAL * excess
+            {
+                break 'path Status::PrimalInfeasible;
             }
             if since > if almost(&best) { 1 } else { PATIENCE } {
                 break 'path Status::Stalled;

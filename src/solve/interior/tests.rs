@@ -217,6 +217,26 @@ fn what_has_no_answer_ends_without_one() {
 }
 
 #[test]
+fn of_what_falls_no_more_is_sought_than_that_it_does() {
+    // On its side, with gravity along its face: the courses slide whatever pulls at them along it.
+    let text = r#"{ "format": "voussoir-scene/1", "gravity": [0, -9.0, -4.0], "joints": { "default": { "friction": 0.6 } },
+        "templates": [ { "wall": { "size": [1, 0.5, 0.4], "courses": 6, "blocks": 6, "base": "course" } } ],
+        "loads": { "live": [ { "weight": [1, 0, 0] } ] } }"#;
+    let model = prepare(&read_str("wall", text).unwrap().0).unwrap();
+    let statics = Statics::new(&model, StaticsOptions { live: true, ..StaticsOptions::default() });
+    let exact = settings(EngineSettings::Interior);
+    let (limit, _) = load_factor(&statics, 1.0, Unknowns::Forces);
+    assert_eq!(own(&limit, &exact).status, Status::PrimalInfeasible);
+    let (least, _) = unbalance(&statics, LiveLoad::AnyMultiple, Unknowns::Forces);
+    let [whole, sign] = [0.0, 1e-5]
+        .map(|where_positive| own(&least, &Settings { where_positive, tolerance: 1e-11, ..exact }));
+    assert_eq!((whole.status, sign.status), (Status::Solved, Status::Solved));
+    assert!(sign.trace.len() < whole.trace.len(), "{}", whole.trace.len());
+    let value = |s: &Solution| s.trace[s.trace.len() - 1].dual;
+    assert!(value(&sign) > 1e-2 && (value(&sign) / value(&whole) - 1.0).abs() < 1e-4);
+}
+
+#[test]
 fn other_programs_are_left_to_the_other_engine() {
     let mut program = pushed(6, 6, [1.0, 0.0, 0.0]);
     // In rates every block is tied to its neighbours by their contacts.
