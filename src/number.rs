@@ -26,14 +26,20 @@ pub fn bracketed(value: f64, lower: f64, upper: f64) -> String {
 /// The ends of a bracket, rounded outwards so that what is printed encloses the value as well.
 pub fn ends(value: f64, lower: f64, upper: f64) -> [String; 2] {
     let d = (decimals(value, lower, upper) + 2).min(300);
-    let unit = 10f64.powi(-(d as i32));
-    let outwards = |v: f64, way: f64| {
-        let text = fixed(v, d);
-        // Decimal rounding goes to nearest: one unit further out if it went in.
-        let rounded: f64 = text.parse().unwrap_or(v);
-        if (rounded - v) * way < 0.0 { fixed(rounded + way * unit, d) } else { text }
-    };
-    [outwards(lower, -1.0), outwards(upper, 1.0)]
+    [rounded(lower, d, -1.0, 0.0), rounded(upper, d, 1.0, 0.0)]
+}
+
+/// A value with so many decimals, rounded one way (1: up, -1: down) where nearest is more than
+/// `allowed` in the other.
+fn rounded(value: f64, decimals: usize, way: f64, allowed: f64) -> String {
+    let text = fixed(value, decimals);
+    // Decimal rounding goes to nearest: one unit further if it went the other way.
+    let nearest: f64 = text.parse().unwrap_or(value);
+    if (nearest - value) * way < -allowed {
+        fixed(nearest + way * 10f64.powi(-(decimals as i32)), decimals)
+    } else {
+        text
+    }
 }
 
 /// A value with so many decimals, without the sign of a negative zero.
@@ -56,12 +62,36 @@ pub fn fixed(value: f64, decimals: usize) -> String {
     }
 }
 
-/// A load factor that is computed and not proved: five decimals, of small ones four digits.
+/// A load factor up to which rest was computed and not proved, never rounded up: five decimals, of
+/// small ones four digits.
 pub fn computed(value: f64) -> String {
+    safe(value, -1.0)
+}
+
+/// One at which motion was computed, never rounded down.
+pub fn moving(value: f64) -> String {
+    safe(value, 1.0)
+}
+
+fn safe(value: f64, way: f64) -> String {
     let size = value.abs();
     let leading = if size > 0.0 && size < 1e-2 { size.log10().floor().max(-300.0) } else { -2.0 };
-    fixed(value, (3 - leading as i32).unsigned_abs() as usize)
+    rounded(value, (3 - leading as i32).unsigned_abs() as usize, way, LAST * size)
 }
+
+/// [`computed`] of a tilt in degrees: four decimals.
+pub fn computed_tilt(degrees: f64) -> String {
+    rounded(degrees, 4, -1.0, LAST * degrees.abs())
+}
+
+/// [`moving`] of a tilt in degrees.
+pub fn moving_tilt(degrees: f64) -> String {
+    rounded(degrees, 4, 1.0, LAST * degrees.abs())
+}
+
+/// What a computed value may be printed beyond itself, relative. Larger: it is printed where nothing was
+/// computed. Smaller: a half that is 0.4999999999 is printed as 0.49999.
+const LAST: f64 = 1e-9;
 
 /// A few digits, for lengths and directions: `1.25`, `-0.5`, `0`.
 pub fn short(value: f64) -> String {
@@ -121,10 +151,26 @@ mod tests {
 
     #[test]
     fn small_load_factors_keep_their_digits() {
-        let said = [0.4376798, 0.01748, 1.7e-3, -0.148, 3.2e-9, 0.0, -0.0].map(computed);
+        let said = [0.4376801, 0.01748, 1.7e-3, -0.148, 3.2e-9, 0.0, -0.0].map(computed);
         let wanted =
             ["0.43768", "0.01748", "0.001700", "-0.14800", "3.200e-9", "0.00000", "0.00000"];
         assert_eq!(said, wanted);
+    }
+
+    #[test]
+    fn what_was_computed_is_printed_on_its_safe_side() {
+        assert_eq!(computed(0.353_578_553_7), "0.35357");
+        assert_eq!(computed(0.499_999_999_9), "0.50000");
+        assert_eq!(computed(-0.148_001), "-0.14801");
+        assert_eq!(computed(0.001_700_96), "0.001700");
+        assert_eq!(computed(3.2009e-9), "3.200e-9");
+        assert_eq!(computed(9.9999e-3), "0.009999");
+        assert_eq!(computed_tilt(0.5f64.atan().to_degrees()), "26.5650");
+        assert_eq!(computed_tilt(44.999_999_99), "45.0000");
+        assert_eq!(moving(0.356_101), "0.35611");
+        assert_eq!(moving(0.356_1), "0.35610");
+        assert_eq!(moving(9.999_99e-3), "0.010000");
+        assert_eq!(moving_tilt(0.5f64.atan().to_degrees()), "26.5651");
     }
 
     #[test]

@@ -8,7 +8,9 @@ use super::{
 };
 use crate::{
     analysis::{Outcome, coulomb::Found},
-    number::{bracketed, computed, decimals, ends, fixed, point},
+    number::{
+        bracketed, computed, computed_tilt, decimals, ends, fixed, moving, moving_tilt, point,
+    },
     proof::{
         answer::Answer,
         certificate::DryResult,
@@ -78,12 +80,12 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
                     let text = match dry_of(file) {
                         Dry::Same => format!("falls at a tilt of {bound}°{toward}"),
                         Dry::Other(v) => {
-                            format!("falls at a tilt of {:.4}°{toward} with dry friction, at {bound}° at the latest", v.atan().to_degrees())
+                            format!("falls at a tilt of {}°{toward} with dry friction, at {bound}° at the latest", computed_tilt(v.atan().to_degrees()))
                         }
                         Dry::Never => format!("not even at rest when level with dry friction (with a pre-stress up to {bound}°{toward})"),
                         Dry::UpTo(v) => {
-                            let up_to = v.atan().to_degrees();
-                            format!("falls at a tilt of {bound}°{toward} at the latest; with dry friction at rest up to {up_to:.4}°")
+                            let up_to = computed_tilt(v.atan().to_degrees());
+                            format!("falls at a tilt of {bound}°{toward} at the latest; with dry friction at rest up to {up_to}°")
                         }
                         Dry::Undecided => format!("falls at a tilt of {bound}°{toward} at the latest; with dry friction undecided"),
                     };
@@ -91,17 +93,17 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
                 }
                 (Outcome::Unbounded, _) => match dry_value(file) {
                     Some(v) => {
-                        let angle = v.atan().to_degrees();
+                        let angle = computed_tilt(v.atan().to_degrees());
                         let text =
-                            format!("stands at every tilt where joints open as they slide; falls at {angle:.4}°{toward} with dry friction");
+                            format!("stands at every tilt where joints open as they slide; falls at {angle}°{toward} with dry friction");
                         (text, Role::Value)
                     }
                     None => match dry_of(file) {
                         Dry::Never => ("not even at rest when level with dry friction".to_string(), Role::Bad),
                         Dry::UpTo(v) => {
-                            let up_to = v.atan().to_degrees();
+                            let up_to = computed_tilt(v.atan().to_degrees());
                             let text = "stands at every tilt where joints open as they slide; with dry friction at rest up to";
-                            (format!("{text} {up_to:.4}°{toward}, then undecided"), Role::Unsure)
+                            (format!("{text} {up_to}°{toward}, then undecided"), Role::Unsure)
                         }
                         Dry::Undecided => {
                             ("stands at every tilt where joints open as they slide; with dry friction undecided".to_string(), Role::Unsure)
@@ -256,25 +258,24 @@ fn unit(file: &ResultFile) -> &'static str {
 /// The load factor with dry friction.
 fn dry(page: &mut Page, file: &ResultFile) {
     let Some(dry) = &file.dry else { return };
-    let words = |v: f64| {
-        if file.question == QuestionKind::Tilt {
-            format!("{:.4}°", v.atan().to_degrees())
-        } else {
-            let factor = if file.question == QuestionKind::Kinematic { "α" } else { "λ" };
-            format!("{factor} = {}", computed(v))
-        }
+    let words = |v: f64, tilt: fn(f64) -> String, factor: fn(f64) -> String| match file.question {
+        QuestionKind::Tilt => format!("{}°", tilt(v.atan().to_degrees())),
+        QuestionKind::Kinematic => format!("α = {}", factor(v)),
+        _ => format!("λ = {}", factor(v)),
     };
+    let no_longer = |v: f64| format!(", and no longer at {}", words(v, moving_tilt, moving));
+    let words = |v: f64| words(v, computed_tilt, computed);
     let text = match (dry.found, dry.value) {
         (Found::NothingSlides, Some(_)) => {
             format!("In the mechanism nothing slides, so with dry friction it is the same{}.", rest(dry, words))
         }
         (Found::Rests, Some(v)) => {
-            let moves = dry.moves_at.map(|m| format!(", and no longer at {}", words(m))).unwrap_or_default();
+            let moves = dry.moves_at.map(no_longer).unwrap_or_default();
             format!("With dry friction (joints slide without opening) the blocks come to rest up to {}{moves}: the forces that the bound needs are not such as the loads produce. Computed, not proved.", words(v))
         }
         (Found::RestsBelow, Some(v)) => {
             let (moves, above) = match dry.moves_at {
-                Some(m) => (format!(", and no longer at {}", words(m)), "in between"),
+                Some(m) => (no_longer(m), "in between"),
                 None => (String::new(), "between there and the bound"),
             };
             format!("With dry friction (joints slide without opening) the blocks come to rest up to {}{moves}; what they do {above} is not known. Computed, not proved.", words(v))
@@ -400,11 +401,11 @@ pub(super) fn directions(page: &mut Page, file: &ResultFile, options: TextOption
         .iter()
         .map(|d| {
             let toward = d.answer.toward().map(point).unwrap_or_default();
-            let dry =
-                d.dry.as_ref().map(|dry| (dry.found, dry.value.map(|v| v.atan().to_degrees())));
+            let tilt = |v: f64| computed_tilt(v.atan().to_degrees());
+            let dry = d.dry.as_ref().map(|dry| (dry.found, dry.value.map(tilt)));
             let dry = match dry {
                 Some((Found::FixedPoint | Found::Rests | Found::RestsBelow, Some(angle))) => {
-                    format!(", with dry friction {angle:.4}°")
+                    format!(", with dry friction {angle}°")
                 }
                 Some((Found::NotAtRest, _)) => ", with dry friction not even level".into(),
                 Some((Found::Undecided, _)) => ", with dry friction undecided".into(),

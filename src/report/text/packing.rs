@@ -7,7 +7,7 @@ use crate::{
         coulomb::Found,
         fabric::{FORCE_BIN, FORCE_BINS},
     },
-    number::{bracketed, count, point, seconds, short},
+    number::{bracketed, computed_tilt, count, point, seconds, short},
     proof::packing::{PackingDirection, PackingFile},
 };
 
@@ -73,7 +73,7 @@ fn angle(d: &PackingDirection) -> String {
         (Outcome::Found, Some(tilt), Some([lower, upper])) => bracketed(tilt, lower, upper),
         (Outcome::Unbounded, ..) => {
             return dry(d).map_or("wedged: stands at every tilt below 90°".into(), |v| {
-                format!("{v:.4}° with dry friction, else wedged")
+                format!("{}° with dry friction, else wedged", computed_tilt(v))
             });
         }
         (Outcome::Impossible, ..) => return "falls, however it is tilted".into(),
@@ -87,7 +87,7 @@ fn angle(d: &PackingDirection) -> String {
             format!("not even level with dry friction, at most {bound}° with a pre-stress")
         }
         (Some(Found::NothingSlides), _) => format!("{bound}°, with dry friction as well"),
-        (_, Some(v)) => format!("{v:.4}° with dry friction, at most {bound}°"),
+        (_, Some(v)) => format!("{}° with dry friction, at most {bound}°", computed_tilt(v)),
         (Some(_), None) => format!("at most {bound}°; with dry friction undecided"),
         (None, None) => format!("{bound}° at most"),
     }
