@@ -3,7 +3,7 @@
 use crate::{
     answer::{Answer, Packed},
     error::Trouble,
-    scene::{Ready, Scene, value},
+    scene::{Ready, Scene, value, wrong},
     wait::{self, Watch},
 };
 use pyo3::prelude::*;
@@ -109,9 +109,7 @@ pub fn question(plain: &Bound<PyAny>) -> PyResult<Question> {
     value(plain, |text| {
         let mut reader = serde_json::Deserializer::from_str(&text);
         serde_path_to_error::deserialize(&mut reader).map_err(|e| {
-            let path = JsonPath::root().key(e.path().to_string());
-            let message = e.inner().to_string();
-            InputError::at(path, message.split(" at line ").next().unwrap_or_default())
+            InputError::at(JsonPath::root().key(e.path().to_string()), wrong(e.inner()))
         })
     })
 }

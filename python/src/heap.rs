@@ -2,11 +2,11 @@
 
 use crate::{
     error::Trouble,
-    scene::Scene,
+    scene::{Scene, value, wrong},
     wait::{self, Watch},
 };
 use pyo3::{prelude::*, types::PyDict};
-use pythonize::{depythonize, pythonize};
+use pythonize::pythonize;
 use std::ops::ControlFlow;
 use voussoir::{
     analysis::{
@@ -42,13 +42,12 @@ pub fn heaps(
     threads: usize,
     progress: Option<&Bound<PyAny>>,
 ) -> PyResult<Heaps> {
-    let read: Result<Protocol, _> = depythonize(protocol.as_any());
-    let protocol = read.map_err(|e| {
-        let error = InputError::at(JsonPath::root().key("protocol"), e.to_string());
-        Trouble::from(error.hint(
-            "drain, funnel, cylinder, tilt, drum, hopper or shear, with grain, elongation, corners, grains, diameter, sizes, friction, wall_friction, rolling_arm, restitution, density, size, rate, pressure, drop, floor",
-        ))
-        .raise(py)
+    let protocol: Protocol = value(protocol.as_any(), |text| {
+        serde_json::from_str(&text).map_err(|e| {
+            InputError::at(JsonPath::root().key("protocol"), wrong(&e)).hint(
+                "drain, funnel, cylinder, tilt, drum, hopper or shear, with grain, elongation, corners, grains, diameter, sizes, friction, wall_friction, rolling_arm, restitution, density, size, rate, pressure, drop, floor",
+            )
+        })
     })?;
     wait::run(py, progress, move |watch| {
         let inside = parallel::inside(threads, seeds.len());

@@ -3,7 +3,7 @@
 use crate::{arrays, error::Trouble};
 use numpy::PyReadonlyArray2;
 use pyo3::{prelude::*, types::PyDict};
-use pythonize::{depythonize, pythonize};
+use pythonize::pythonize;
 use serde::de::DeserializeOwned;
 use std::{
     path::{Path, PathBuf},
@@ -85,29 +85,33 @@ impl Ready {
     }
 }
 
-/// A value of Python as one of the library. `as_text` makes JSON text of what is no plain value
-/// (arrays of numpy, say) or is wrong; `read` says what is wrong with it.
-pub fn value<T: DeserializeOwned>(
+/// A value of Python as one of the library, by way of its JSON text: the reader of files says what is
+/// wrong with it, and is compiled once.
+pub fn value<T>(
     value: &Bound<PyAny>,
     read: impl FnOnce(String) -> Result<T, InputError>,
 ) -> PyResult<T> {
     let py = value.py();
-    depythonize(value).or_else(|_| {
-        let text: String =
-            py.import("voussoir._plain")?.call_method1("text", (value,))?.extract()?;
-        read(text).map_err(|e| Trouble::from(e).raise(py))
-    })
+    let text: String = py.import("voussoir._plain")?.call_method1("text", (value,))?.extract()?;
+    read(text).map_err(|e| Trouble::from(e).raise(py))
+}
+
+/// What is wrong with a value whose text Python wrote: of all that it writes only NaN and infinity are
+/// no JSON.
+pub fn wrong(error: &serde_json::Error) -> String {
+    if error.is_syntax() {
+        return "must be a finite number".into();
+    }
+    let message = error.to_string();
+    message.split(" at line ").next().unwrap_or_default().into()
 }
 
 /// A part of a scene, whose errors are told by its place in a scene.
 fn part<T: DeserializeOwned>(item: &Bound<PyAny>, place: JsonPath) -> PyResult<T> {
     value(item, |text| {
         let mut reader = serde_json::Deserializer::from_str(&text);
-        serde_path_to_error::deserialize(&mut reader).map_err(|e| {
-            let message = e.inner().to_string();
-            let message = message.split(" at line ").next().unwrap_or_default();
-            InputError::at(steps(place, e.path()), message)
-        })
+        serde_path_to_error::deserialize(&mut reader)
+            .map_err(|e| InputError::at(steps(place, e.path()), wrong(e.inner())))
     })
 }
 

@@ -149,6 +149,15 @@ def test_errors_name_place_and_remedy(
     assert isinstance(error, ValueError) and path in str(error)
 
 
+def test_numbers_that_are_none_are_named() -> None:
+    with pytest.raises(voussoir.InputError) as caught:
+        table().box("odd", (1, 1, 1), (0, 0, float("nan")))
+    assert caught.value.path == "blocks[2].at[2]" and "finite" in caught.value.message, caught.value
+    with pytest.raises(voussoir.InputError) as caught:
+        voussoir.tilt(table(), toward=(1, float("-inf"), 0))
+    assert "finite" in caught.value.message, caught.value
+
+
 def test_errors_of_files_have_lines(tmp_path: Path) -> None:
     file = tmp_path / "scene.json"
     file.write_text(table().to_json().replace('"table"', '"block"', 1))

@@ -87,6 +87,8 @@ fn misfit(kind: &Kind, source: &Source, path: JsonPath, error: &serde_json::Erro
     InputError { file: Some(source.name.clone()), position: Some(position), ..result }
 }
 
+const NOT_FINITE: &str = "JSON has no NaN or infinity: give a finite number";
+
 /// Text that is not JSON.
 pub(super) fn syntax_error(
     kind: &Kind,
@@ -112,7 +114,7 @@ pub(super) fn syntax_error(
         let word: String = rest.chars().take_while(|c| c.is_alphanumeric()).collect();
         let before = source.text.get(..offset).unwrap_or("").chars().next_back();
         let hint = match word.to_lowercase().as_str() {
-            "nan" | "inf" | "infinity" => Some("JSON has no NaN or infinity: give a finite number"),
+            "nan" | "inf" | "infinity" => Some(NOT_FINITE),
             "true" | "false" | "none" | "null" => {
                 Some("JSON writes true, false, null in small letters")
             }
@@ -128,6 +130,7 @@ pub(super) fn syntax_error(
         };
         let hint = hint.map(String::from);
         match message.as_str() {
+            _ if hint.as_deref() == Some(NOT_FINITE) => ("must be a finite number".into(), hint),
             "trailing comma" => {
                 ("a comma before a closing bracket".into(), Some("remove the comma".into()))
             }

@@ -29,11 +29,11 @@ fn wrong_text_is_refused_with_place_and_remedy() {
         ),
         (
             r#" "gravity": [0, 0, NaN] }"#,
-            "s.json:2:20: gravity[2]: not JSON: expected a value; hint: JSON has no NaN or infinity: give a finite number",
+            "s.json:2:20: gravity[2]: must be a finite number; hint: JSON has no NaN or infinity: give a finite number",
         ),
         (
             r#" "gravity": [0, 0, -Infinity] }"#,
-            "s.json:2:21: gravity[2]: not JSON: invalid number; hint: JSON has no NaN or infinity: give a finite number",
+            "s.json:2:21: gravity[2]: must be a finite number; hint: JSON has no NaN or infinity: give a finite number",
         ),
         (
             r#" "gravity": [0, 0, .5] }"#,
