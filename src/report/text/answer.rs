@@ -80,11 +80,11 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
                     let text = match dry_of(file) {
                         Dry::Same => format!("falls at a tilt of {bound}°{toward}"),
                         Dry::Other(v) => {
-                            format!("falls at a tilt of {}°{toward} with dry friction, at {bound}° at the latest", computed_tilt(v.atan().to_degrees()))
+                            format!("falls at a tilt of {}°{toward} with dry friction, at {bound}° at the latest", at_rest_to(v))
                         }
                         Dry::Never => format!("not even at rest when level with dry friction (with a pre-stress up to {bound}°{toward})"),
                         Dry::UpTo(v) => {
-                            let up_to = computed_tilt(v.atan().to_degrees());
+                            let up_to = at_rest_to(v);
                             format!("falls at a tilt of {bound}°{toward} at the latest; with dry friction at rest up to {up_to}°")
                         }
                         Dry::Undecided => format!("falls at a tilt of {bound}°{toward} at the latest; with dry friction undecided"),
@@ -93,7 +93,7 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
                 }
                 (Outcome::Unbounded, _) => match dry_value(file) {
                     Some(v) => {
-                        let angle = computed_tilt(v.atan().to_degrees());
+                        let angle = at_rest_to(v);
                         let text =
                             format!("stands at every tilt where joints open as they slide; falls at {angle}°{toward} with dry friction");
                         (text, Role::Value)
@@ -101,7 +101,7 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
                     None => match dry_of(file) {
                         Dry::Never => ("not even at rest when level with dry friction".to_string(), Role::Bad),
                         Dry::UpTo(v) => {
-                            let up_to = computed_tilt(v.atan().to_degrees());
+                            let up_to = at_rest_to(v);
                             let text = "stands at every tilt where joints open as they slide; with dry friction at rest up to";
                             (format!("{text} {up_to}°{toward}, then undecided"), Role::Unsure)
                         }
@@ -255,6 +255,11 @@ fn unit(file: &ResultFile) -> &'static str {
     }
 }
 
+/// The tilt up to which blocks are at rest, by its tangent.
+fn at_rest_to(tangent: f64) -> String {
+    computed_tilt(tangent.atan().to_degrees())
+}
+
 /// The load factor with dry friction.
 fn dry(page: &mut Page, file: &ResultFile) {
     let Some(dry) = &file.dry else { return };
@@ -401,8 +406,7 @@ pub(super) fn directions(page: &mut Page, file: &ResultFile, options: TextOption
         .iter()
         .map(|d| {
             let toward = d.answer.toward().map(point).unwrap_or_default();
-            let tilt = |v: f64| computed_tilt(v.atan().to_degrees());
-            let dry = d.dry.as_ref().map(|dry| (dry.found, dry.value.map(tilt)));
+            let dry = d.dry.as_ref().map(|dry| (dry.found, dry.value.map(at_rest_to)));
             let dry = match dry {
                 Some((Found::FixedPoint | Found::Rests | Found::RestsBelow, Some(angle))) => {
                     format!(", with dry friction {angle}°")
