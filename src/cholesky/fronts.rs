@@ -26,6 +26,10 @@ const SHARED: f64 = 3e7;
 /// each front are asked for anew, which takes longer than to fill them.
 const KEPT: usize = 4;
 
+/// A place may be this much larger than what is put there. More: small fronts take the places of large
+/// ones. Less: places fit no other front.
+const ROOMY: usize = 2;
+
 /// What a front leaves of the rows below its own: a lower triangle, by columns; beyond it anything.
 struct Rest {
     of: usize,
@@ -45,16 +49,16 @@ impl Rests<'_> {
     /// So many numbers or more, whatever they are.
     fn place(&mut self, count: usize) -> Result<Vec<f64>, NoFactor> {
         let mut free = self.free.lock().unwrap_or_else(PoisonError::into_inner);
-        let fits = |&k: &usize| free[k].len() >= count;
+        let fits = |&k: &usize| (count..=ROOMY * count).contains(&free[k].len());
         let least = (0..free.len()).filter(fits).min_by_key(|&k| free[k].len());
         if let Some(k) = least {
             return Ok(free.swap_remove(k));
         }
         drop(free);
-        let mut place = Vec::new();
-        place.try_reserve_exact(count).map_err(|_| NoFactor)?;
-        place.resize(count, 0.0);
-        Ok(place)
+        // Whether there is room, before it is asked for as zeros, of which only the pages that are
+        // written to are ever there: half of them stay out.
+        Vec::<f64>::new().try_reserve_exact(count).map_err(|_| NoFactor)?;
+        Ok(vec![0.0; count])
     }
 
     /// Gives back the places of what was gathered.
