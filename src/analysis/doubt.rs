@@ -16,7 +16,7 @@ use crate::{
 };
 use crate::{
     interface::Model,
-    number::{count, short},
+    number::{computed, count, short},
     scene::Friction,
     terms::{Attempt, Doubt, DoubtCause, Found, Outcome, StateMotion},
     tolerance,
@@ -164,7 +164,7 @@ impl About<'_> {
             return Self::refused(why);
         }
         let rests = dry.rests_at.filter(|&r| r > 0.0);
-        let rests = rests.map(|r| format!("; at rest up to {}", short(r))).unwrap_or_default();
+        let rests = rests.map(|r| format!("; at rest up to {}", computed(r))).unwrap_or_default();
         let programs = count(dry.solves, "program");
         Doubt::new(
             DoubtCause::DryFriction,

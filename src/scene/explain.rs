@@ -87,8 +87,6 @@ fn misfit(kind: &Kind, source: &Source, path: JsonPath, error: &serde_json::Erro
     InputError { file: Some(source.name.clone()), position: Some(position), ..result }
 }
 
-const NOT_FINITE: &str = "JSON has no NaN or infinity: give a finite number";
-
 /// Text that is not JSON.
 pub(super) fn syntax_error(
     kind: &Kind,
@@ -103,6 +101,8 @@ pub(super) fn syntax_error(
     };
     let rest = source.text.get(offset..).unwrap_or("");
     let message = bare(error);
+    let word: String = rest.chars().take_while(|c| c.is_alphanumeric()).collect();
+    let word = word.to_lowercase();
     let (message, hint) = if source.text.trim().is_empty() {
         ("the file is empty".into(), Some(kind.start()))
     } else if error.classify() == Category::Eof {
@@ -110,11 +110,12 @@ pub(super) fn syntax_error(
             "the file ends in the middle of a value".into(),
             Some("it is cut off, or a closing bracket or quote is missing".into()),
         )
+    } else if ["nan", "inf", "infinity"].contains(&word.as_str()) {
+        let remedy = "JSON has no NaN or infinity: give a finite number";
+        ("must be a finite number".into(), Some(remedy.into()))
     } else {
-        let word: String = rest.chars().take_while(|c| c.is_alphanumeric()).collect();
         let before = source.text.get(..offset).unwrap_or("").chars().next_back();
-        let hint = match word.to_lowercase().as_str() {
-            "nan" | "inf" | "infinity" => Some(NOT_FINITE),
+        let hint = match word.as_str() {
             "true" | "false" | "none" | "null" => {
                 Some("JSON writes true, false, null in small letters")
             }
@@ -130,7 +131,6 @@ pub(super) fn syntax_error(
         };
         let hint = hint.map(String::from);
         match message.as_str() {
-            _ if hint.as_deref() == Some(NOT_FINITE) => ("must be a finite number".into(), hint),
             "trailing comma" => {
                 ("a comma before a closing bracket".into(), Some("remove the comma".into()))
             }

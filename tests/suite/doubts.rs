@@ -128,7 +128,7 @@ fn a_state_that_neither_rests_nor_moves_is_named() {
     let answer = Limited { dry: Some(Proved::new(&model, dry)), ..Limited::from(bound) };
     let (cause, evidence, next) = why(&Answer::Limit(Box::new(answer)), &model);
     assert_eq!(cause, DoubtCause::DryFriction);
-    assert!(evidence.ends_with("; at rest up to 0.25"), "{evidence}");
+    assert!(evidence.ends_with("; at rest up to 0.25000"), "{evidence}");
     assert!(next.starts_with("simulate the load that matters"), "{next}");
 }
 

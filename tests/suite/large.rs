@@ -53,6 +53,34 @@ fn verdicts_are_proved() {
 }
 
 #[test]
+fn a_light_or_heavy_block_that_falls_off_a_large_wall_is_proved_to() {
+    let (length, courses) = (20, 20);
+    let block = |id: String, x: f64, course: i32, density: f64| {
+        json!({ "id": id, "shape": { "box": { "size": [1, 0.5, 0.4] } }, "density": density,
+            "at": [x, 0.25, 0.4 * f64::from(course) + 0.2], "support": course == 0 })
+    };
+    for density in [2e-3, 2e3, 2e9] {
+        let mut blocks: Vec<_> = (0..length * courses)
+            .map(|k| (k % length, k / length))
+            .map(|(k, c)| {
+                block(format!("{c}-{k}"), f64::from(k) + 0.5 * f64::from(c % 2), c, 2000.0)
+            })
+            .collect();
+        // A hair more than half of it is in the air.
+        let end = f64::from(length) - 0.5 + 0.5 * f64::from((courses - 1) % 2);
+        blocks.push(block("loose".into(), end + 0.001, courses, density));
+        let scene = json!({ "format": "voussoir-scene/1", "blocks": blocks,
+            "joints": { "default": { "friction": 0.6 } } });
+        let model = prepare(&read_str("wall", scene.to_string()).unwrap().0).unwrap();
+        let control = Control { law: Law::Associative, ..Control::default() };
+        let answer = analysis::assess(&model, &control);
+        assert_eq!(answer.verdict, Verdict::Unstable, "{density}");
+        assert!(answer.claim().is_some(), "{density}");
+        assert_eq!(answer.attempts[0].engine, Engine::Interior);
+    }
+}
+
+#[test]
 fn small_programs_begin_with_the_usual_engine() {
     let model = wall(5, 5, [1.0, 0.0, 0.0]);
     let answer = analysis::limit(&model, &Control::default());

@@ -92,7 +92,7 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
             (FactorStatus::Impossible, ..) => "falls, whatever the train".into(),
             (FactorStatus::AtLeast, _, bound) => {
                 let most = bound.map(|(v, ..)| format!(", at most {}", short(v)));
-                let least = l.lower.map(short).unwrap_or_default();
+                let least = l.lower.map(computed).unwrap_or_default();
                 format!("λ at least {least} with dry friction{}", most.unwrap_or_default())
             }
             (FactorStatus::NotAtRest, ..) => "not at rest without the train".into(),

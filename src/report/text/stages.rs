@@ -5,7 +5,7 @@ use super::{
     page::{Page, Role},
 };
 use crate::{
-    number::{bracketed, count, fixed, point, short},
+    number::{bracketed, computed, count, fixed, point, short},
     proof::{
         answer::{FactorStatus, LoadFactorAnswer},
         result::ResultFile,
@@ -232,12 +232,12 @@ fn margin(l: &LoadFactorAnswer, what: &str, unit: &str) -> String {
         {
             format!("{what} {}{unit}", bracketed(v, low, high))
         }
-        (FactorStatus::Found, Some(v), ..) => format!("{what} {}{unit}", fixed(v, 5)),
+        (FactorStatus::Found, Some(v), ..) => format!("{what} {}{unit}", computed(v)),
         (FactorStatus::Unbounded, ..) => "no limit to its margin".into(),
         (FactorStatus::NotAtRest, ..) => "not at rest with dry friction".into(),
         (FactorStatus::Impossible, ..) => "falls whatever the load".into(),
         (_, _, Some(low), _) if low > 0.0 => {
-            format!("margin undecided, at rest up to {}{unit}", fixed(low, 5))
+            format!("margin undecided, at rest up to {}{unit}", computed(low))
         }
         _ => "margin undecided".into(),
     }

@@ -370,7 +370,7 @@ mod tests {
         let mut c = cones();
         assert!(c.scale(&S, &Z));
         let round = c.list[1];
-        // Along the axis through w̄: both roots of the cone's boundary in that plane.
+        // Its eigenvectors lie on the boundary of the cone, in the plane of its axis and w̄.
         let w = &c.scale[round.rows()];
         let t = norm(&w[1..]);
         let mut v = [0.0, 0.0, 1.0, -w[1] / t, -w[2] / t];
