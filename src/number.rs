@@ -62,6 +62,12 @@ pub fn fixed(value: f64, decimals: usize) -> String {
     }
 }
 
+/// The number with the fewest digits that is no farther than this from a value.
+pub fn roundest(value: f64, within: f64) -> f64 {
+    let near = (0..17).filter_map(|digits| format!("{value:.digits$e}").parse().ok());
+    near.into_iter().find(|near: &f64| (near - value).abs() <= within).unwrap_or(value)
+}
+
 /// A load factor up to which rest was computed and not proved, never rounded up: five decimals, of
 /// small ones four digits.
 pub fn computed(value: f64) -> String {
@@ -138,6 +144,17 @@ pub fn count(n: usize, noun: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_roundest_number_is_no_farther_than_asked() {
+        assert_eq!(roundest(0.328_322_9, 1.6e-3), 0.328);
+        assert_eq!(roundest(0.505_112_201_3, 0.1), 0.5);
+        assert_eq!(roundest(-12_345.678, 60.0), -12_300.0);
+        assert_eq!(roundest(1e-9 / 3.0, 4e-12), 3.3e-10);
+        assert_eq!(roundest(0.1 + 0.2, 0.0), 0.1 + 0.2);
+        assert_eq!(roundest(0.0, 0.0), 0.0);
+        assert!(roundest(f64::INFINITY, 1.0).is_infinite() && roundest(f64::NAN, 1.0).is_nan());
+    }
 
     #[test]
     fn shows_the_digits_that_the_bracket_supports() {

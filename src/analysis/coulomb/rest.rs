@@ -18,7 +18,7 @@ use crate::{
     analysis::{Control, LoadFactor, Outcome},
     assembly::Assembly,
     interface::{Model, is_forest},
-    parallel,
+    number, parallel,
     terms::{Found, MANY, StateMotion, is_reached, resolution},
     tolerance,
     verdict::{Forces, Verdict, check, law},
@@ -39,7 +39,7 @@ const ON_THE_WAY_OF_FEW: [f64; 11] =
 const FEW: usize = 100;
 /// The same for scenes of more than [`MANY`] free blocks, a state of which takes seconds; the last
 /// one is near enough to the bound to be a value. They are asked beside the search for one.
-const ON_THE_WAY_OF_MANY: [f64; 2] = [0.5, 1.0 - 0.95 * tolerance::REST_WITHIN];
+const ON_THE_WAY_OF_MANY: [f64; 2] = [0.65, 1.0 - 0.95 * tolerance::REST_WITHIN];
 
 /// No more free blocks than this: a value is searched for even where the state next to the bound
 /// rests and had to be sought from afar. More: a minute and longer for a search that finds none
@@ -55,6 +55,12 @@ const BELOW: [f64; 4] = [tolerance::REST_BELOW, 1e-2, 0.05, 0.2];
 /// below. Nearer: motions too slow to be told. Farther: less is known of the value.
 const ABOVE: [f64; 3] = [tolerance::REST_BELOW, 1e-2, 0.05];
 
+/// Load factors are asked about there, as far as this share of the way to where they come from: in so few
+/// digits that they do not hang on the last ones of another answer (the last bits of a bound decided
+/// which states of the Armadillo Vault came out), and that what is printed is what was asked. Larger:
+/// states that are not where they should be, and no value just below a bound. Smaller: more digits.
+const ABOUT: f64 = 5e-3;
+
 /// Without an end to the load factor: where the state is asked, in multiples of the one at which
 /// live and dead load weigh the same.
 const WITHOUT_END: [f64; 3] = [0.1, 1.0, 10.0];
@@ -62,8 +68,9 @@ const WITHOUT_END: [f64; 3] = [0.1, 1.0, 10.0];
 /// Most states asked while halving. Fewer: the value is known to fewer digits than
 /// [`tolerance::DRY_CRITICAL_WIDTH`].
 const MOST: usize = 40;
-/// Most pairs of states of slow scenes: what is between them is then a 81st of what it was. Fewer: as
-/// there. More: six seconds each for digits that mean little (Armadillo Vault).
+/// Most pairs of states of slow scenes: what is between them is then a 81st of what it was, or of more
+/// than [`MANY`] free blocks as little as is asked of a value. Fewer: the value is known to fewer digits.
+/// More: seconds each for digits that mean little.
 const MOST_OF_SLOW: usize = 4;
 
 /// Most states that stay undecided where none was seen to move: without one there is no value, only
@@ -88,6 +95,8 @@ struct Probe<'a> {
     seen: Vec<(f64, State)>,
     /// Most of them that stay undecided.
     most_open: usize,
+    /// How narrow what lies between rest and motion has to be.
+    width: f64,
     /// Whether each further state takes seconds: more than [`MANY`] free blocks, or more than [`FEW`]
     /// of which states had to be sought from afar.
     is_slow: bool,
@@ -172,7 +181,7 @@ impl Probe<'_> {
             let mut seen: Vec<(f64, State)> =
                 first.into_iter().flat_map(|at| self.state(at)).collect();
             if seen.iter().all(|(_, state)| state.motion == StateMotion::Rests) {
-                seen.extend(self.states(&ON_THE_WAY_OF_MANY.map(|share| share * bound)));
+                seen.extend(self.states(&ON_THE_WAY_OF_MANY.map(|share| on_the_way(share, bound))));
             }
             seen
         };
@@ -207,7 +216,7 @@ impl Probe<'_> {
     /// nothing more is to be had; false where the time is over before.
     fn climb(&mut self, shares: &[f64], of: f64) -> bool {
         for some in shares.chunks(AT_A_TIME) {
-            let at: Vec<f64> = some.iter().map(|share| share * of).collect();
+            let at: Vec<f64> = some.iter().map(|share| on_the_way(*share, of)).collect();
             let in_time = self.ask_all(&at);
             if self.moves().is_some_and(|m| m.0 <= of) || self.is_hopeless() {
                 break;
@@ -223,9 +232,10 @@ impl Probe<'_> {
     /// at a time; false where the time is over before. Without a state that moves there is no value,
     /// and no more digits are sought than a value may be off.
     fn narrow(&mut self, end: f64) -> bool {
-        for _ in 0..if self.is_slow { MOST_OF_SLOW } else { MOST } {
+        let is_large = self.width > tolerance::DRY_CRITICAL_WIDTH;
+        for _ in 0..if self.is_slow && !is_large { MOST_OF_SLOW } else { MOST } {
             let width = match self.moves() {
-                Some(_) => tolerance::DRY_CRITICAL_WIDTH,
+                Some(_) => self.width,
                 None => self.open_width(),
             };
             let rests = self.rests_at();
@@ -254,8 +264,9 @@ pub(in crate::analysis) fn up_to_rest(
     control: &Control,
 ) -> DryLoadFactor {
     let is_large = assembly.free().count() > MANY;
-    let mut probe =
-        Probe { at, control, seen: Vec::new(), most_open: MOST_OPEN, is_slow: is_large };
+    let width = if is_large { resolution(assembly) } else { tolerance::DRY_CRITICAL_WIDTH };
+    let (seen, most_open) = (Vec::new(), MOST_OPEN);
+    let mut probe = Probe { at, control, seen, most_open, width, is_slow: is_large };
     let towards = associative.found().filter(|&bound| {
         is_large
             && bound > 0.0
@@ -430,10 +441,22 @@ fn climb(
     (answer.natural_map, answer.natural_map_in_loads) = (f64::INFINITY, f64::INFINITY);
 }
 
+/// A share of a load factor, with few digits: what is asked does not hang on the last ones of another
+/// answer, and is found again from what is printed.
+fn on_the_way(share: f64, of: f64) -> f64 {
+    number::roundest(share * of, ABOUT * (share * of).abs())
+}
+
+/// A load factor that is this share further than another, with few digits.
+fn next_to(value: f64, share: f64) -> f64 {
+    number::roundest((1.0 + share) * value, ABOUT * (share * value).abs())
+}
+
 /// Where to ask between rest and what does not rest.
 fn between(rests: f64, above: f64, is_slow: bool) -> Vec<f64> {
-    let third = (above - rests) / 3.0;
-    if is_slow { vec![rests + third, above - third] } else { vec![0.5 * (rests + above)] }
+    let width = above - rests;
+    let shares: &[f64] = if is_slow { &[1.0 / 3.0, 2.0 / 3.0] } else { &[0.5] };
+    shares.iter().map(|share| number::roundest(rests + share * width, ABOUT * width)).collect()
 }
 
 /// Whether what lies between rest and motion is as little as a value says. Pairs of slow scenes may
@@ -451,7 +474,7 @@ fn below(probe: &mut Probe, goal: f64, is_value: bool) {
         return;
     }
     for share in BELOW {
-        let lambda = (1.0 - share) * goal;
+        let lambda = next_to(goal, -share);
         if probe.moves().is_some()
             || lambda <= halfway
             || probe.is_hopeless()
@@ -465,7 +488,7 @@ fn below(probe: &mut Probe, goal: f64, is_value: bool) {
 /// Asks above a value below which it was not seen at rest, up to the bound, until it moves.
 fn above(probe: &mut Probe, value: f64, bound: f64) {
     for share in ABOVE {
-        let lambda = (1.0 + share) * value;
+        let lambda = next_to(value, share);
         if is_reached(probe.rests_at(), value) || probe.moves().is_some() || lambda > bound {
             break;
         }
@@ -485,6 +508,31 @@ mod tests {
     use super::*;
 
     /// A dome of 145 blocks at μ = 0.8: its result was refuted, for at 0.393071 it still rests.
+    /// Whatever the last digits of the load factor that it comes from, the same is asked.
+    #[test]
+    fn states_are_asked_at_few_digits() {
+        for of in [0.505_112_201_3, 0.505_112_201_4, 0.505_112_3] {
+            assert_eq!(on_the_way(0.65, of), 0.328);
+            assert_eq!(next_to(of, -tolerance::REST_BELOW), 0.504_607);
+            assert_eq!(between(0.328, on_the_way(0.905, of), true), [0.371, 0.414]);
+            assert_eq!(between(0.3519, 0.3567, false), [0.3543]);
+        }
+        // Each is where it should be: below, next enough to be a value, and in between.
+        for k in 0..400 {
+            let of = 1.07_f64.powi(k - 200);
+            let far = 1.0 - 0.95 * tolerance::REST_WITHIN;
+            assert!(on_the_way(far, of) >= (1.0 - tolerance::REST_WITHIN) * of);
+            assert!(on_the_way(0.99, of) < of && on_the_way(0.95, of) < on_the_way(0.99, of));
+            let near = next_to(of, -tolerance::REST_BELOW);
+            assert!(near < of && is_reached(near, of), "{near} {of}");
+            assert!(next_to(of, tolerance::REST_BELOW) > of);
+            let halves = between(of, 1.001 * of, false);
+            assert!(halves.iter().all(|at| *at > of && *at < 1.001 * of));
+            let negative = between(-of, 0.5 * of, true);
+            assert!(-of < negative[0] && negative[0] < negative[1] && negative[1] < 0.5 * of);
+        }
+    }
+
     #[test]
     fn a_value_with_rest_above_it_is_the_safe_end_alone() {
         let (rests, moves) = (0.3930695669986692, 0.39441110135702645);
