@@ -52,8 +52,9 @@ const MOST_SEARCHED: usize = 800;
 const BELOW: [f64; 4] = [tolerance::REST_BELOW, 1e-2, 0.05, 0.2];
 
 /// How far above a value the state is asked, in shares of it, where it was not seen at rest just
-/// below. Nearer: motions too slow to be told. Farther: less is known of the value.
-const ABOVE: [f64; 3] = [tolerance::REST_BELOW, 1e-2, 0.05];
+/// below; the last one is as far as what rests may be from what moves. Nearer: motions too slow to be
+/// told. Farther: less is known of the value.
+const ABOVE: [f64; 4] = [tolerance::REST_BELOW, 1e-2, 0.05, 0.9 * tolerance::REST_WITHIN];
 
 /// Load factors are asked about there, as far as this share of the way to where they come from: in so few
 /// digits that they do not hang on the last ones of another answer (the last bits of a bound decided
