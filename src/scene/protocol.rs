@@ -58,7 +58,7 @@ pub enum FloorKind {
     /// Fixed grains at random places.
     #[default]
     Rough,
-    /// A plane with the friction of the grains.
+    /// A plane with the friction of the grains; of a drum its inside, with the friction of walls.
     Flat,
 }
 

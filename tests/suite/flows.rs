@@ -19,7 +19,7 @@ use voussoir::{
         heaps::{HeapResult, ReposeFile},
         page,
     },
-    scene::{BlockSpec, GrainKind, Protocol, ProtocolKind, Scene, Sizes},
+    scene::{BlockSpec, FloorKind, GrainKind, Protocol, ProtocolKind, Scene, Shape, Sizes},
     tolerance::GRAIN_GAP,
     verdict::Verdict,
 };
@@ -309,6 +309,13 @@ fn a_drum_carries_its_grains_up_to_a_slope() {
     assert!((angle_deg.mean - by_centre_deg.mean).abs() < 5.0, "{angle_deg:?} {by_centre_deg:?}");
     assert!((froude / (9.0 * 2f64.to_radians().powi(2)) - 1.0).abs() < 1e-9, "{froude}");
     assert_eq!(heap.grains, [300, 0], "nothing leaves a drum");
+    // A smooth drum without friction turns under them.
+    let smooth = Protocol { floor: FloorKind::Flat, ..protocol.clone() };
+    let heap = run(&smooth, 1);
+    let lining = |b: &&BlockSpec| b.support && matches!(b.shape, Shape::Sphere { .. });
+    assert_eq!(heap.scene.blocks.iter().filter(lining).count(), 0);
+    let Some(Seen::Drum { by_centre_deg, .. }) = &heap.seen else { panic!("{:?}", heap.refused) };
+    assert!(by_centre_deg.mean.abs() < 6.0, "{by_centre_deg:?}");
     let crowded = Protocol { grains: 3000, ..protocol };
     let said = repose::heap(&crowded, 1, &mut |_| ControlFlow::Break(())).unwrap_err().to_string();
     assert!(said.contains("larger drum"), "{said}");

@@ -63,10 +63,13 @@ impl Vessel {
             ProtocolKind::Hopper => ([-2.0 * r, 2.0 * r, -2.0 * r, 2.0 * r], [0.0; 4]),
         };
         let mut below = Vec::new();
+        let spots = match (p.kind, p.floor) {
+            (ProtocolKind::Hopper, _) | (_, FloorKind::Flat) => Vec::new(),
+            (_, FloorKind::Rough) => rough(floor, APART, random),
+        };
         match p.kind {
             ProtocolKind::Hopper => below.extend(plate(d, length, width)),
             ProtocolKind::Drum => {
-                let spots = rough(floor, APART, random);
                 below.extend(spots.iter().enumerate().map(|(i, [s, y])| {
                     let (sin, cos) = (s / (0.5 * length)).sin_cos();
                     let at = [0.5 * length * cos, *y, 0.5 * length * sin];
@@ -79,10 +82,6 @@ impl Vessel {
                 let low = [floor[0], floor[2], -0.5 - WALL];
                 let slab = wall(d, "floor".into(), low, [floor[1] - end, floor[3], -0.5]);
                 below.push(BlockSpec { material: Some("grain".into()), ..slab });
-                let spots = match p.floor {
-                    FloorKind::Rough => rough(floor, APART, random),
-                    FloorKind::Flat => Vec::new(),
-                };
                 let fixed = spots.iter().enumerate();
                 below
                     .extend(fixed.map(|(i, at)| {
