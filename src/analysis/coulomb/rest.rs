@@ -69,9 +69,10 @@ const WITHOUT_END: [f64; 3] = [0.1, 1.0, 10.0];
 /// Most states asked while halving. Fewer: the value is known to fewer digits than
 /// [`tolerance::DRY_CRITICAL_WIDTH`].
 const MOST: usize = 40;
-/// Most pairs of states of slow scenes: what is between them is then a 81st of what it was, or of more
-/// than [`MANY`] free blocks as little as is asked of a value. Fewer: the value is known to fewer digits.
-/// More: seconds each for digits that mean little.
+/// Most pairs of states of slow scenes: what is between them is then a 81st of what it was. Of more than
+/// [`MANY`] free blocks there are more until that is as little as is asked of a value, and no more after
+/// that where states had to be sought from afar. Fewer: the value is known to fewer digits. More:
+/// seconds each for digits that mean little.
 const MOST_OF_SLOW: usize = 4;
 
 /// Most states that stay undecided where none was seen to move: without one there is no value, only
@@ -96,8 +97,8 @@ struct Probe<'a> {
     seen: Vec<(f64, State)>,
     /// Most of them that stay undecided.
     most_open: usize,
-    /// How narrow what lies between rest and motion has to be.
-    width: f64,
+    /// Of more than [`MANY`] free blocks: how narrow what lies between rest and motion has to be.
+    told: Option<f64>,
     /// Whether each further state takes seconds: more than [`MANY`] free blocks, or more than [`FEW`]
     /// of which states had to be sought from afar.
     is_slow: bool,
@@ -233,11 +234,15 @@ impl Probe<'_> {
     /// at a time; false where the time is over before. Without a state that moves there is no value,
     /// and no more digits are sought than a value may be off.
     fn narrow(&mut self, end: f64) -> bool {
-        let is_large = self.width > tolerance::DRY_CRITICAL_WIDTH;
-        for _ in 0..if self.is_slow && !is_large { MOST_OF_SLOW } else { MOST } {
-            let width = match self.moves() {
-                Some(_) => self.width,
-                None => self.open_width(),
+        for pairs in 0..MOST {
+            let (is_late, moves) = (pairs >= MOST_OF_SLOW, self.moves().is_some());
+            if self.is_slow && is_late && !(moves && self.told.is_some()) {
+                break;
+            }
+            let width = match self.told {
+                _ if !moves => self.open_width(),
+                Some(told) if is_late || self.is_dear() => told,
+                _ => tolerance::DRY_CRITICAL_WIDTH,
             };
             let rests = self.rests_at();
             let not_at_rest = self.seen.iter().filter(|s| s.1.motion != StateMotion::Rests);
@@ -265,9 +270,9 @@ pub(in crate::analysis) fn up_to_rest(
     control: &Control,
 ) -> DryLoadFactor {
     let is_large = assembly.free().count() > MANY;
-    let width = if is_large { resolution(assembly) } else { tolerance::DRY_CRITICAL_WIDTH };
+    let told = is_large.then(|| resolution(assembly));
     let (seen, most_open) = (Vec::new(), MOST_OPEN);
-    let mut probe = Probe { at, control, seen, most_open, width, is_slow: is_large };
+    let mut probe = Probe { at, control, seen, most_open, told, is_slow: is_large };
     let towards = associative.found().filter(|&bound| {
         is_large
             && bound > 0.0
@@ -508,7 +513,6 @@ fn rests_below(answer: &mut DryLoadFactor, (rests_at, forces): (f64, &Forces)) {
 mod tests {
     use super::*;
 
-    /// A dome of 145 blocks at μ = 0.8: its result was refuted, for at 0.393071 it still rests.
     /// Whatever the last digits of the load factor that it comes from, the same is asked.
     #[test]
     fn states_are_asked_at_few_digits() {
@@ -534,6 +538,7 @@ mod tests {
         }
     }
 
+    /// A dome of 145 blocks at μ = 0.8: its result was refuted, for at 0.393071 it still rests.
     #[test]
     fn a_value_with_rest_above_it_is_the_safe_end_alone() {
         let (rests, moves) = (0.3930695669986692, 0.39441110135702645);

@@ -8,9 +8,7 @@ use super::{
 };
 use crate::{
     analysis::{Outcome, coulomb::Found},
-    number::{
-        bracketed, computed, computed_tilt, decimals, ends, fixed, moving, moving_tilt, point,
-    },
+    number::{bracketed, computed, computed_tilt, decimals, ends, moving, moving_tilt, point},
     proof::{
         answer::Answer,
         certificate::DryResult,
@@ -216,7 +214,7 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
         (Outcome::Unbounded, _) => {
             page.paragraph("Contact forces balance the live load by itself, so that any multiple of it can be added. Sliding counts as associative here (a joint that slides opens as well): with dry friction there may be a limit.");
             if let Some(Claim::Unbounded { standing }) = file.certificate.claim {
-                page.paragraph(&format!("It stands at λ = {} and at every greater λ.", fixed(standing, 6)));
+                page.paragraph(&format!("It stands at λ = {} and at every greater λ.", moving(standing)));
             }
         }
         (Outcome::Impossible, _) => page.paragraph(

@@ -2,7 +2,7 @@
 
 use super::{TextOptions, cut, page::Page};
 use crate::{
-    number::{bracketed, computed, count, short},
+    number::{self, bracketed, computed, count, short},
     proof::{
         answer::FactorStatus,
         moving::MovingAnswer,
@@ -91,7 +91,7 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
             (FactorStatus::Unbounded, ..) => "no limit".into(),
             (FactorStatus::Impossible, ..) => "falls, whatever the train".into(),
             (FactorStatus::AtLeast, _, bound) => {
-                let most = bound.map(|(v, ..)| format!(", at most {}", short(v)));
+                let most = bound.map(|(.., upper)| format!(", at most {}", number::moving(upper)));
                 let least = l.lower.map(computed).unwrap_or_default();
                 format!("λ at least {least} with dry friction{}", most.unwrap_or_default())
             }

@@ -5,7 +5,7 @@ use super::{
     page::{Page, Role},
 };
 use crate::{
-    number::{bracketed, count, fixed, point, short},
+    number::{bracketed, count, fixed, moving, point, short},
     proof::{
         path::{DrivenBy, PathEvent, PathEventKind, PathPoint, PathResult, PathStatus},
         result::{QuestionKind, ResultFile},
@@ -183,7 +183,7 @@ fn line(path: &PathResult, p: &PathPoint) -> String {
             format!("{head} λ = {}", bracketed(value, lower, upper))
         }
         Some(Claim::DryLoadFactor { value }) => {
-            let most = bound(p).map_or(String::new(), |b| format!(", at most {}", short(b)));
+            let most = bound(p).map_or(String::new(), |b| format!(", at most {}", moving(b)));
             format!("{head} λ = {} by dry friction{most}", fixed(value, 6))
         }
         Some(Claim::Stable) => {

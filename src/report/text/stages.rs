@@ -5,7 +5,7 @@ use super::{
     page::{Page, Role},
 };
 use crate::{
-    number::{bracketed, computed, count, fixed, point, short},
+    number::{bracketed, computed, count, point, short},
     proof::{
         answer::{FactorStatus, LoadFactorAnswer},
         result::ResultFile,
@@ -125,7 +125,7 @@ fn hands(a: &StagesAnswer, text: String) -> String {
 /// A least margin in words.
 fn least(l: &LeastMargin, what: &str, unit: &str) -> String {
     match (l.status, l.value) {
-        (FactorStatus::Found, Some(v)) => format!("{what} {}{unit} at {}", fixed(v, 6), l.stage),
+        (FactorStatus::Found, Some(v)) => format!("{what} {}{unit} at {}", computed(v), l.stage),
         (FactorStatus::Unbounded, _) => format!("{what}: no limit"),
         _ => format!("{what} undecided at {}", l.stage),
     }
