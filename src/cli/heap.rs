@@ -16,6 +16,7 @@ use voussoir::{
     },
     deadline::Deadline,
     dynamics::granular::Flow,
+    error::FindingCode,
     import::{ImportOptions, import_files},
     interface::prepare,
     keep::Kept,
@@ -264,7 +265,9 @@ fn start(path: &std::path::Path) -> anyhow::Result<Vec<BlockSpec>> {
     let scene = if is_scene {
         scene::read_file(path)?.0
     } else {
-        let imported = import_files(&[path], &ImportOptions::default())?;
+        let mut imported = import_files(&[path], &ImportOptions::default())?;
+        // Supports and friction are the protocol's.
+        imported.findings.retain(|f| f.code != FindingCode::Missing);
         terminal::notes(&imported.findings);
         imported.scene
     };

@@ -210,4 +210,5 @@ fn what_is_left_of_a_packing_of_ones_own_is_told() {
     assert!(told.contains("spheres of type 2, read as supports: 1"), "{told}");
     assert!(told.contains("own.dump: 1 support; the protocol brings its own"), "{told}");
     assert!(told.contains("lies outside the box"), "{told}");
+    assert!(!told.contains("friction of the joints is not known"), "{told}");
 }
