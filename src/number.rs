@@ -74,7 +74,8 @@ pub fn computed(value: f64) -> String {
     safe(value, -1.0)
 }
 
-/// One at which motion was computed, never rounded down.
+/// One at which motion was computed, or that something is at most or holds from there on, never rounded
+/// down.
 pub fn moving(value: f64) -> String {
     safe(value, 1.0)
 }

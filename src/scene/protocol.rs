@@ -55,7 +55,7 @@ pub struct Protocol {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FloorKind {
-    /// Fixed grains at random places.
+    /// Fixed grains at random places; none on the plate of a hopper.
     #[default]
     Rough,
     /// A plane with the friction of the grains; of a drum its inside, with the friction of walls.

@@ -58,8 +58,9 @@ const ABOVE: [f64; 4] = [tolerance::REST_BELOW, 1e-2, 0.05, 0.9 * tolerance::RES
 
 /// Load factors are asked about there, as far as this share of the way to where they come from: in so few
 /// digits that they do not hang on the last ones of another answer (the last bits of a bound decided
-/// which states of the Armadillo Vault came out), and that what is printed is what was asked. Larger:
-/// states that are not where they should be, and no value just below a bound. Smaller: more digits.
+/// which states of the Armadillo Vault came out). Another scale of the live load, but a power of ten, asks
+/// next to them. Larger: states that are not where they should be, and no value just below a bound.
+/// Smaller: more digits.
 const ABOUT: f64 = 5e-3;
 
 /// Without an end to the load factor: where the state is asked, in multiples of the one at which
@@ -235,14 +236,12 @@ impl Probe<'_> {
     /// and no more digits are sought than a value may be off.
     fn narrow(&mut self, end: f64) -> bool {
         for pairs in 0..MOST {
-            let (is_late, moves) = (pairs >= MOST_OF_SLOW, self.moves().is_some());
-            if self.is_slow && is_late && !(moves && self.told.is_some()) {
-                break;
-            }
-            let width = match self.told {
-                _ if !moves => self.open_width(),
-                Some(told) if is_late || self.is_dear() => told,
-                _ => tolerance::DRY_CRITICAL_WIDTH,
+            let is_late = pairs >= MOST_OF_SLOW;
+            let width = match (self.moves(), self.told) {
+                (Some(_), Some(told)) if is_late || self.is_dear() => told,
+                _ if self.is_slow && is_late => break,
+                (Some(_), _) => tolerance::DRY_CRITICAL_WIDTH,
+                (None, _) => self.open_width(),
             };
             let rests = self.rests_at();
             let not_at_rest = self.seen.iter().filter(|s| s.1.motion != StateMotion::Rests);
@@ -447,8 +446,7 @@ fn climb(
     (answer.natural_map, answer.natural_map_in_loads) = (f64::INFINITY, f64::INFINITY);
 }
 
-/// A share of a load factor, with few digits: what is asked does not hang on the last ones of another
-/// answer, and is found again from what is printed.
+/// A share of a load factor, with few digits.
 fn on_the_way(share: f64, of: f64) -> f64 {
     number::roundest(share * of, ABOUT * (share * of).abs())
 }
