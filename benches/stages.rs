@@ -19,11 +19,11 @@ use voussoir::{
     ground::Record,
     import, interface,
     program::{self, Statics, StaticsOptions, Unknowns},
-    proof::ResultFile,
+    proof::saved,
     rocking::{self, RunSettings},
     scene::{Friction, Load, Scene, read_file, read_str},
     sweep,
-    verdict::{Evidence, check},
+    verdict::{Evidence, claim},
 };
 
 /// A wall of `courses` free courses of `length` blocks of 1 × 0.5 × 0.4 m on a fixed course, pushed
@@ -79,12 +79,12 @@ fn stages(c: &mut Criterion) {
         if let Some(claim) = answer.claim() {
             let evidence = Evidence::new(&answer.forces, &answer.rates);
             group.bench_function(BenchmarkId::new("check", blocks), |b| {
-                b.iter(|| check::verify(model, &claim, evidence))
+                b.iter(|| claim::verify(model, &claim, evidence))
             });
         }
         let limited = Limited { bound: answer, dry: None, dead: None };
         group.bench_function(BenchmarkId::new("result file", blocks), |b| {
-            b.iter(|| ResultFile::load_factor(&scene, model, &limited))
+            b.iter(|| saved::load_factor(&scene, model, &limited))
         });
     }
     group.finish();

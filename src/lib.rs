@@ -44,13 +44,13 @@
 //! check its evidence again:
 //!
 //! ```
-//! use voussoir::{analysis, interface, scene, verdict::{Evidence, Verdict, check}};
+//! use voussoir::{analysis, interface, scene, verdict::{Evidence, Verdict, claim}};
 //! let (scene, _) = scene::read_file("structures/semicircular-arch-thin.json".as_ref())?;
 //! let model = interface::prepare(&scene)?;
 //! let answer = analysis::assess(&model, &Default::default());
 //! assert_eq!(answer.verdict, Verdict::Unstable);
 //! let claim = answer.claim().expect("an answer that was proved");
-//! assert!(check::verify(&model, &claim, Evidence::new(&answer.forces, &answer.rates)).proved());
+//! assert!(claim::verify(&model, &claim, Evidence::new(&answer.forces, &answer.rates)).proved());
 //! # Ok::<(), voussoir::error::InputError>(())
 //! ```
 //!
@@ -77,10 +77,12 @@
 //! # Ok::<(), voussoir::error::InputError>(())
 //! ```
 //!
-//! The crate comes in steps, each a cargo feature that holds the one before it: without any feature
-//! it is the *checker* (scenes, templates, meshes, contacts, verdicts, and [`proof::verify`](proof::verify()) for
-//! results that somebody saved; no conic solver, no threads, no clock), then `solve` (questions and
-//! their answers), `dynamics`, `sweep`, `report`, and `cli`, the command, which is the default.
+//! The house is a workspace of crates, each by the name of what it holds, and a crate uses only those
+//! before it: `base`, [`scene`], `model`, [`cholesky`], `check`, [`solve`], [`dynamics`], [`analysis`],
+//! [`sweep`], [`report`]. This one is the facade over them, under which every module has its place, and
+//! the command. `voussoir-check` is the *checker* by itself: scenes, templates, meshes, contacts,
+//! verdicts and the verification of results that somebody saved, without a conic solver, threads or a
+//! clock.
 //!
 //! A second opinion comes from running the same blocks in time:
 //!
@@ -91,6 +93,20 @@
 //! let outcome = simulate(&model, &Default::default(), &mut |_| std::ops::ControlFlow::Continue(()))?;
 //! assert_eq!(outcome.fate, Fate::Falls);
 //! # Ok::<(), voussoir::error::InputError>(())
+//! ```
+//!
+//! A sweep asks one question of many scenes, row by row into a file:
+//!
+//! ```
+//! use voussoir::sweep::{self, RunOptions};
+//! # let folder = tempfile::tempdir().unwrap();
+//! let sweep = sweep::open("structures/sweeps/arch-in-earthquake.json".as_ref())?;
+//! let rows = folder.path().join("rows.jsonl");
+//! # let few = sweep::Shard::new(1, 60).unwrap();
+//! let done = sweep::run(&sweep, &rows, &RunOptions { shard: few, ..RunOptions::default() }, &|_| {})?;
+//! let summary = sweep::summarize(&sweep.header(few), &done.rows);
+//! assert_eq!(summary.rows, done.rows.len());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
 //! | convention | |
@@ -105,94 +121,48 @@
 //! | equilibrium | `A f + w + λ ℓ = 0`: contact forces, dead load, live load |
 //! | unbalance | in multiples of each block's own load (g) |
 
-#![warn(missing_docs)]
-// What only later steps use is not dead in this one; the whole is judged.
-#![cfg_attr(not(feature = "cli"), allow(dead_code, unused_imports))]
 #![forbid(unsafe_code)]
+#![warn(missing_docs)]
 
-pub mod error;
-pub mod tolerance;
+pub use analysis;
+pub use base::{error, files, limits, number, plain, plane, tolerance};
+pub use check::{ground, kinematic, path, rocking, terms, verdict, yielding};
+pub use cholesky::{self, parallel};
+pub use dynamics;
+pub use model::{assembly, interface, strength, train};
+pub use report;
+pub use scene::{self, generate, import};
+pub use solve::{self, deadline, program};
+pub use sweep::{self, keep};
 
-#[cfg(feature = "solve")]
-pub mod deadline;
+mod known;
 
-pub mod plain;
+/// Error against run time.
+pub mod study {
+    pub use crate::known::known;
+    pub use sweep::study::*;
+}
 
-pub mod number;
+/// Results as files, and what proves them ([`verify`](proof::verify())).
+pub mod proof {
+    pub use analysis::{
+        recompute::{Solvers, verify},
+        saved,
+    };
+    pub use check::proof::verify::{self};
+    pub use check::proof::{
+        Answer, PackingFile, ResultFile, Simulation, VerificationFile, answer, certificate,
+        critical, kinematic, member, moving, packing, path, read, recompute, result, rocking,
+        shaken, simulation, stages, state, thrust, verification, work,
+    };
+    pub use sweep::path as kept;
+}
 
-pub mod plane;
-
-pub mod files;
-
-pub mod limits;
-
-pub mod ground;
-
-pub mod rocking;
-
-#[cfg(feature = "solve")]
-pub mod parallel;
-
-#[cfg(feature = "sweep")]
-pub mod keep;
-
-pub mod scene;
-
-pub mod generate;
-
-pub mod import;
-
-pub mod assembly;
-
-pub mod interface;
-
-pub mod strength;
-
-pub mod cholesky;
-
-pub mod verdict;
-
-pub mod terms;
-
-pub mod path;
-
-pub mod kinematic;
-
-pub mod train;
-
-pub mod yielding;
-
-#[cfg(feature = "solve")]
-pub mod program;
-
-#[cfg(feature = "solve")]
-pub mod solve;
-
-#[cfg(feature = "dynamics")]
-pub mod dynamics;
-
-#[cfg(feature = "solve")]
-pub mod analysis;
-
-pub mod proof;
-
-#[cfg(feature = "sweep")]
-pub mod sweep;
-
-#[cfg(feature = "sweep")]
-pub mod study;
-
-#[cfg(feature = "report")]
-pub mod report;
-
-#[cfg(feature = "cli")]
 pub mod live;
 
-#[cfg(feature = "cli")]
 mod cli;
 
 /// The command `voussoir`, for programs that carry it: its binary, the wheel for Python.
-#[cfg(feature = "cli")]
 pub mod command {
     pub use crate::cli::{
         exit::Exit,
@@ -201,5 +171,4 @@ pub mod command {
 }
 
 // The command names the library as any other program does.
-#[cfg(feature = "cli")]
 extern crate self as voussoir;

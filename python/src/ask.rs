@@ -15,7 +15,7 @@ use voussoir::{
     dynamics::Progress,
     error::{Finding, FindingCode, InputError, JsonPath},
     interface::{Model, prepare},
-    proof::{PackingFile, ResultFile, kept::KeptPath, work::Work},
+    proof::{ResultFile, kept::KeptPath, saved, work::Work},
     report::view::Film,
     scene::Scene as Plain,
     sweep::{self, Between},
@@ -154,18 +154,18 @@ fn answer(
                 _ => None,
             };
             let Found::Simulate(seen) = &outcome else { return Err(none()) };
-            let mut file = ResultFile::simulated(&ready.scene, &model, assessment, seen);
+            let mut file = saved::simulated(&ready.scene, &model, assessment, seen);
             file.doubt = doubt(&outcome, &model, &control);
             file
         }
         Question::Shake(_) => {
             let found = session.in_time(question.clone(), &mut film)?;
-            ResultFile::of(&ready.scene, &model, &found).ok_or_else(none)?
+            saved::of(&ready.scene, &model, &found).ok_or_else(none)?
         }
         Question::Repose(options) => {
             let found = session.ask(question)?;
             let Found::Repose(packing) = &found else { return Err(none()) };
-            let made = PackingFile::new(&ready.scene, options.moving_mass, packing);
+            let made = saved::packing(&ready.scene, options.moving_mass, packing);
             let made = made.map_err(|e| ready.located(e))?;
             let (mut file, proof) = made.ok_or_else(none)?;
             file.timings.check = proof.timings.check;
@@ -179,7 +179,7 @@ fn answer(
         _ if manner.keep.is_some() => session.kept(question)?,
         _ => {
             let found = session.ask(question)?;
-            let made = ResultFile::of_question(question, &ready.scene, &model, &found, &control);
+            let made = saved::of_question(question, &ready.scene, &model, &found, &control);
             let mut file = made.ok_or_else(none)?;
             let doubt =
                 matches!(file.answer.verdict(), Some(Verdict::Conditional | Verdict::Undecided));
@@ -189,7 +189,7 @@ fn answer(
                 && let Found::Simulate(outcome) =
                     session.in_time(Question::Simulate(SimulateOptions::default()), &mut film)?
             {
-                file = file.with_simulation(&model, Some(assessment), &outcome);
+                file = saved::with_simulation(file, &model, Some(assessment), &outcome);
             }
             file
         }

@@ -62,10 +62,11 @@ impl Ready {
         if let Some(model) = &*self.model.lock().unwrap_or_else(PoisonError::into_inner) {
             return Ok(model.clone());
         }
-        let mut model = prepare_until(&self.scene, is_over).map_err(|e| match is_over() {
-            true => Trouble::TimeIsUp(e.to_string()),
-            false => self.located(e),
-        })?;
+        let mut model =
+            prepare_timed(&self.scene, is_over, &deadline::clock).map_err(|e| match is_over() {
+                true => Trouble::TimeIsUp(e.to_string()),
+                false => self.located(e),
+            })?;
         model.assembly.findings.splice(0..0, self.said.iter().cloned());
         let points = model.contact_points() as u64;
         limits::afford(
@@ -79,7 +80,7 @@ impl Ready {
     /// An error with its place in the file.
     pub fn located(&self, error: InputError) -> Trouble {
         match &self.source {
-            Some(source) if !error.path.0.is_empty() => error.located(source).into(),
+            Some(source) if !error.path.0.is_empty() => source.located(error).into(),
             _ => error.into(),
         }
     }
@@ -156,7 +157,7 @@ impl Scene {
         let reach = if outside { Reach::Anywhere } else { Reach::Folder };
         let read = || -> Result<Self, InputError> {
             let (mut scene, source) = scene::read_str(name, text)?;
-            let said = read_meshes(&mut scene, folder, reach).map_err(|e| e.located(&source))?;
+            let said = read_meshes(&mut scene, folder, reach).map_err(|e| source.located(e))?;
             Ok(Self { ready: Ready::new(scene, Some(source), said) })
         };
         py.detach(read).map_err(|e| Trouble::from(e).raise(py))

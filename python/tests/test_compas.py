@@ -12,7 +12,7 @@ import voussoir
 from conftest import ROOT
 
 compas = pytest.importorskip("compas", reason="compas is not installed")
-DATA = ROOT.parent / "shared" / "data" / "compas"
+DATA = ROOT / "tests" / "cases" / "compas"
 
 
 def column(count: int = 3) -> list[Any]:
@@ -119,7 +119,6 @@ def test_the_plugin_is_found() -> None:
     assert "compas_voussoir.install.installable_rhino_packages" in found
 
 
-@pytest.mark.skipif(not DATA.exists(), reason="no ../shared/data/compas")
 @pytest.mark.filterwarnings("ignore")
 def test_the_armadillo_vault() -> None:
     pytest.importorskip("compas_assembly", reason="compas_assembly is not installed")

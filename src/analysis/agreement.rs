@@ -2,13 +2,15 @@
 //! where they touch.
 
 use super::Assessment;
-use crate::{
-    assembly::Assembly,
-    dynamics::{Fate, SimulationOutcome},
-    error::FindingCode,
-    interface::{Model, is_forest},
+use base::error::FindingCode;
+use check::{
     terms::{Agreement, ForceAgreement, agree},
     verdict::{Forces, Rate, Verdict},
+};
+use dynamics::{Fate, SimulationOutcome};
+use model::{
+    assembly::Assembly,
+    interface::{Model, is_forest},
 };
 use nalgebra::Vector3;
 use std::collections::BTreeMap;

@@ -9,17 +9,14 @@ use super::{
     near::Near,
     tilt::{DryTilt, Tilt, tilt_near},
 };
-use crate::{
-    error::InputError,
-    interface::{Model, parts},
-    program::{Isometries, Isometry},
-    tolerance,
-    verdict::{
-        Verdict,
-        tilted::{direction, tilted},
-    },
+use base::{error::InputError, tolerance};
+use check::verdict::{
+    Verdict,
+    tilted::{direction, tilted},
 };
+use model::interface::{Model, parts};
 use nalgebra::Vector3;
+use solve::program::{Isometries, Isometry};
 
 /// A scene to be tilted, and what carries it into itself.
 pub struct Tilts<'a> {
@@ -145,12 +142,10 @@ impl<'a> Tilts<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{
-        analysis::tilt::tilt,
-        interface::prepare,
-        scene::read_str,
-        terms::{Bracket, Engine, Law, Outcome},
-    };
+    use crate::tilt::tilt;
+    use check::terms::{Bracket, Engine, Law, Outcome};
+    use model::interface::prepare;
+    use scene::read_str;
 
     /// Towards two directions that no symmetry carries into each other: the second after the first, and
     /// the second by itself. Engine and iterations of the first attempts, and the brackets.

@@ -30,15 +30,11 @@ use super::{
     thrust,
     thrust::Thrust,
 };
-#[cfg(feature = "dynamics")]
-use crate::dynamics::SimulationOutcome;
-use crate::{
-    assembly::Wrench,
-    error::{InputError, JsonPath},
-    interface::Model,
-    parallel::both,
-    scene::Scene,
-};
+use base::error::{InputError, JsonPath};
+use cholesky::parallel::both;
+use dynamics::SimulationOutcome;
+use model::{assembly::Wrench, interface::Model};
+use scene::Scene;
 use std::sync::Arc;
 
 /// An answer.
@@ -69,10 +65,8 @@ pub enum Answer {
     /// On ground that moves: what does its mechanism do?
     Rock(Box<Rocking>),
     /// What happens in time?
-    #[cfg(feature = "dynamics")]
     Simulate(Box<SimulationOutcome>),
     /// On ground that moves: what do all blocks do?
-    #[cfg(feature = "dynamics")]
     Shake(Box<in_time::ShakenScene>),
 }
 
@@ -164,7 +158,6 @@ struct Means<'a, 'b> {
 ///
 /// # Errors
 /// As [`ask`].
-#[cfg(feature = "dynamics")]
 pub fn ask_watched(
     question: &Question,
     scene: &Scene,

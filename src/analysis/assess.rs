@@ -9,22 +9,24 @@ use super::{
     forest::{Fate, Forest},
     mend, parts,
 };
-use crate::{
-    interface::{Model, floating, is_forest},
-    program::{self, LiveLoad, Statics, StaticsOptions, Unknowns},
-    solve::{EngineSettings, Settings},
+use base::tolerance;
+use check::{
     terms::{Attempt, Law},
-    tolerance,
     verdict::{
         Evidence, Forces, Rate, Verdict, certificate,
-        check::{self, Claim},
+        claim::{self, Claim},
         exact::existence,
         law,
         mechanism::{self, Mechanism},
         no_forces,
     },
 };
+use model::interface::{Model, floating, is_forest};
 use nalgebra::Vector3;
+use solve::{
+    EngineSettings, Settings,
+    program::{self, LiveLoad, Statics, StaticsOptions, Unknowns},
+};
 
 /// The answer of [`assess`], with its evidence.
 #[derive(Clone, Debug)]
@@ -125,14 +127,14 @@ pub(super) fn of_part(model: &Model, control: &Control) -> Assessment {
 
 /// Whether forces prove that it stands.
 fn holds(model: &Model, forces: &Forces) -> bool {
-    check::verify(model, &Claim::Stable, Evidence::new(forces, &[])).proved()
+    claim::verify(model, &Claim::Stable, Evidence::new(forces, &[])).proved()
 }
 
 /// Whether forces of the live load alone prove that it may grow without limit, beside those that
 /// hold the scene at some load factor.
 pub(super) fn wedges(model: &Model, (standing, base): (f64, &Forces), forces: &Forces) -> bool {
     let evidence = Evidence { forces, base: Some(base), rates: &[] };
-    check::verify(model, &Claim::Unbounded { standing }, evidence).proved()
+    claim::verify(model, &Claim::Unbounded { standing }, evidence).proved()
 }
 
 /// An answer that says nothing yet but these forces and the ends of the least unbalance.

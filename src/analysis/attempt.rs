@@ -3,13 +3,15 @@
 //! An attempt's worth is its bracket, recomputed from the scene; the engine's word is recorded and
 //! never decides.
 
-use crate::{
-    deadline::Deadline,
-    interface::Model,
-    program::{ConicProgram, Positions, Statics, Unknowns},
-    solve::{self, EngineSettings, Passed, Settings, Solution},
+use check::{
     terms::{Attempt, Law},
     verdict::{Forces, Rate, certificate},
+};
+use model::interface::Model;
+use solve::{
+    EngineSettings, Passed, Settings, Solution,
+    deadline::Deadline,
+    program::{ConicProgram, Positions, Statics, Unknowns},
 };
 
 /// What the caller may change about a question.
@@ -63,7 +65,7 @@ pub(super) struct Rung {
 const LARGE: usize = 4000;
 
 /// Whether a program is large.
-pub(in crate::analysis) fn is_large(statics: &Statics) -> bool {
+pub(crate) fn is_large(statics: &Statics) -> bool {
     statics.matrix.columns >= LARGE
 }
 
@@ -197,7 +199,7 @@ pub(super) fn run(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solve::Status;
+    use solve::Status;
 
     fn record(step: &Rung) -> serde_json::Value {
         let solution = Solution {

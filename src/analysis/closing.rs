@@ -12,12 +12,12 @@ use super::{
     LoadFactor, MovingOptions, Proved, Question, ThrustOptions, TiltOptions, ask,
     thrust::{Thrust, ThrustEnd},
 };
-use crate::{
-    interface::{self, Model},
-    scene::Scene,
+use check::{
     terms::{Closed, ClosedAnswer, ClosedEnd, Law, LeftOutContacts},
     verdict::{Verdict, thrust::Sought},
 };
+use model::interface::{self, Model};
+use scene::Scene;
 
 /// With more contact points than this the question is not put again: it would take longer than
 /// seconds.

@@ -11,14 +11,14 @@ use super::{
     Assessment, Control, Law, Proved, assess,
     flip::{Flip, Probe, refine},
 };
-pub use crate::terms::Method;
-use crate::{
+use base::{
     error::{InputError, JsonPath},
-    interface::prepare_until,
-    scene::Scene,
     tolerance,
-    verdict::Verdict,
 };
+pub use check::terms::Method;
+use check::verdict::Verdict;
+use model::interface::prepare_until;
+use scene::Scene;
 
 /// What is varied, and how the range is scanned.
 #[derive(Clone, Debug, PartialEq)]
@@ -355,7 +355,7 @@ mod tests {
             r#"{{ "format": "voussoir-scene/1", "joints": {{ "default": {{ "friction": "infinite" }} }},
             "templates": [ {{ "arch": {{ "radius": 1, "thickness": 0.2, "depth": 1, "voussoirs": {voussoirs} }} }} ] }}"#
         );
-        crate::scene::read_str("test", text).unwrap().0
+        scene::read_str("test", text).unwrap().0
     }
 
     #[test]

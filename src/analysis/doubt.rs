@@ -9,19 +9,18 @@ use super::{
     Answer, Assessment, Control, Critical, LoadFactor, Proved, Tilt, coulomb::DryLoadFactor,
     critical::Scanned, flip::Probe,
 };
-#[cfg(feature = "dynamics")]
-use crate::{
-    dynamics::SimulationOutcome,
-    terms::{Fate, Stop},
-};
-use crate::{
-    interface::Model,
+use base::{
     number::{computed, count, short},
-    scene::Friction,
-    terms::{Attempt, Doubt, DoubtCause, Found, Outcome, StateMotion},
     tolerance,
+};
+use check::terms::{Fate, Stop};
+use check::{
+    terms::{Attempt, Doubt, DoubtCause, Found, Outcome, StateMotion},
     verdict::{Verdict, certificate},
 };
+use dynamics::SimulationOutcome;
+use model::interface::Model;
+use scene::Friction;
 
 /// Why an answer, or the governing part of it, is undecided; nothing where it is decided.
 pub fn doubt(answer: &Answer, model: &Model, control: &Control) -> Option<Doubt> {
@@ -83,10 +82,8 @@ pub fn doubt(answer: &Answer, model: &Model, control: &Control) -> Option<Doubt>
             .or_else(|| about.bound(s.bound.as_ref()?)),
         // A path says itself where it ended, and why.
         Answer::Path(_) | Answer::Rock(_) => None,
-        #[cfg(feature = "dynamics")]
         Answer::Simulate(outcome) => in_time(outcome),
         // Single histories are no verdicts.
-        #[cfg(feature = "dynamics")]
         Answer::Shake(_) => None,
     }
 }
@@ -299,7 +296,6 @@ fn spread(model: &Model) -> Option<String> {
     })
 }
 
-#[cfg(feature = "dynamics")]
 fn in_time(outcome: &SimulationOutcome) -> Option<Doubt> {
     if outcome.fate != Fate::Undecided {
         return None;

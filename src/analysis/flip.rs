@@ -8,7 +8,9 @@
 //! are verdicts with their own evidence.
 
 use super::{Assessment, Proved};
-use crate::{error::InputError, interface::Model, tolerance, verdict::Verdict};
+use base::{error::InputError, tolerance};
+use check::verdict::Verdict;
+use model::interface::Model;
 
 /// A model at one value of what varies, with its verdict: as it was computed on the way of a
 /// search, or proved.

@@ -9,15 +9,17 @@
 //! N, N r and T linearly in `a`: the least that any contact bears in its weakest direction is the
 //! margin.
 
-use crate::{
-    assembly::Wrench,
-    interface::{Interface, Model},
-    scene::Friction,
+use base::tolerance::{COORDINATE_ROUNDING, FOREST_EDGE};
+use check::{
     terms::Bracket,
-    tolerance::{COORDINATE_ROUNDING, FOREST_EDGE},
     verdict::{Forces, no_forces},
 };
+use model::{
+    assembly::Wrench,
+    interface::{Interface, Model},
+};
 use nalgebra::{Matrix3, Vector3};
+use scene::Friction;
 
 /// What a contact carries.
 struct Carried {
@@ -243,7 +245,7 @@ impl Carried {
         up: &Vector3<f64>,
         weight: f64,
     ) -> Bracket {
-        let frame = crate::interface::ContactFrame::around(*up);
+        let frame = model::interface::ContactFrame::around(*up);
         let mut points = Vec::with_capacity(DIRECTIONS);
         for k in 0..DIRECTIONS {
             let angle = std::f64::consts::TAU * k as f64 / DIRECTIONS as f64;

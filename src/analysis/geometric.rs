@@ -11,12 +11,9 @@ use super::{
     flip::{Flip, Probe, refine},
     parts,
 };
-use crate::{
-    interface::Model,
-    strength::laws::are_dry,
-    tolerance,
-    verdict::{Verdict, section::shrunk_model},
-};
+use base::tolerance;
+use check::verdict::{Verdict, section::shrunk_model};
+use model::{interface::Model, strength::laws::are_dry};
 
 /// What is known of the geometric safety factor.
 #[derive(Clone, Debug)]

@@ -1,18 +1,16 @@
 //! The door to the dynamics, where this build has any.
 
 use super::{Answer, question::SimulateOptions};
-use crate::{error::InputError, ground::ShakeOptions, interface::Model, scene::Scene};
+use base::error::InputError;
+use check::ground::ShakeOptions;
+use model::interface::Model;
+use scene::Scene;
 
-#[cfg(feature = "dynamics")]
-use crate::{
-    dynamics::{self, Burden, Fidelity, Progress, Shaken, Shaking, SimulationSettings},
-    error::JsonPath,
-    interface::prepare,
-    kinematic::{MassKind, quake},
-};
-#[cfg(feature = "dynamics")]
+use base::error::JsonPath;
+use check::kinematic::{MassKind, quake};
+use dynamics::{Burden, Fidelity, Progress, Shaken, Shaking, SimulationSettings};
+use model::interface::prepare;
 use nalgebra::Vector3;
-#[cfg(feature = "dynamics")]
 use std::ops::ControlFlow;
 
 /// What is asked of all blocks in time.
@@ -24,7 +22,6 @@ pub(super) enum Asked<'a> {
 }
 
 /// All blocks of a scene on ground that moved.
-#[cfg(feature = "dynamics")]
 #[derive(Clone, Debug)]
 pub struct ShakenScene {
     /// What was asked.
@@ -36,7 +33,6 @@ pub struct ShakenScene {
 }
 
 /// How a simulation is shown while it runs; none of it changes an answer.
-#[cfg(feature = "dynamics")]
 pub struct Watch<'a> {
     /// Threads of the engine.
     pub threads: usize,
@@ -51,7 +47,6 @@ pub struct Watch<'a> {
 }
 
 /// What happens in time, shown to nobody.
-#[cfg(feature = "dynamics")]
 pub(super) fn unwatched(asked: &Asked, scene: &Scene, model: &Model) -> Result<Answer, InputError> {
     let mut each = |_: &Progress| ControlFlow::Continue(());
     let watch =
@@ -59,15 +54,7 @@ pub(super) fn unwatched(asked: &Asked, scene: &Scene, model: &Model) -> Result<A
     watched(asked, scene, model, watch)
 }
 
-/// What happens in time, which nothing here can tell.
-#[cfg(not(feature = "dynamics"))]
-pub(super) fn unwatched(_: &Asked, _: &Scene, _: &Model) -> Result<Answer, InputError> {
-    let error = InputError::at(Default::default(), "this build cannot simulate");
-    Err(error.hint("build it with the feature `dynamics`"))
-}
-
 /// What happens in time, shown while it does.
-#[cfg(feature = "dynamics")]
 pub(super) fn watched(
     asked: &Asked,
     scene: &Scene,
@@ -80,7 +67,6 @@ pub(super) fn watched(
     }
 }
 
-#[cfg(feature = "dynamics")]
 impl Watch<'_> {
     fn settings(
         &self,
@@ -100,7 +86,6 @@ impl Watch<'_> {
     }
 }
 
-#[cfg(feature = "dynamics")]
 fn simulate(
     options: &SimulateOptions,
     scene: &Scene,
@@ -120,7 +105,6 @@ fn simulate(
     Ok(Answer::Simulate(Box::new(dynamics::simulate(loaded, &settings, watch.each)?)))
 }
 
-#[cfg(feature = "dynamics")]
 fn shake(
     options: &ShakeOptions,
     scene: &Scene,
@@ -142,7 +126,6 @@ fn shake(
 ///
 /// # Errors
 /// The direction is along gravity.
-#[cfg(feature = "dynamics")]
 pub fn burdens(
     scene: &Scene,
     model: &Model,
@@ -151,7 +134,7 @@ pub fn burdens(
     let gravity = model.assembly.gravity.norm();
     let masses = quake(scene, model, toward)?.masses;
     let loads = masses.iter().filter(|m| m.kind != MassKind::Block);
-    let burden = |m: &crate::kinematic::Mass| Burden {
+    let burden = |m: &check::kinematic::Mass| Burden {
         block: m.block,
         arm: m.arm,
         mass: m.weight / gravity,

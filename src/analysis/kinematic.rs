@@ -1,5 +1,5 @@
 //! Mechanisms under earthquakes: the load factor that proves one worst, and the curve by which its
-//! resistance falls. The arithmetic on both is that of [`crate::kinematic`].
+//! resistance falls. The arithmetic on both is that of [`check::kinematic`].
 
 use super::{
     Assessment, Control, KinematicOptions, LoadFactor, Outcome, Proved, PushOptions, assess,
@@ -12,15 +12,15 @@ use super::{
     limit,
     question::{ControlPoint, directions},
 };
-use crate::{
-    error::{InputError, JsonPath},
-    interface::Model,
+use base::error::{InputError, JsonPath};
+use check::{
     kinematic::{self, CONFIDENCE, Participation, Quake, quake, way_of},
-    scene::Scene,
     terms::Law,
     verdict::Rate,
 };
+use model::interface::Model;
 use nalgebra::Vector3;
+use scene::Scene;
 
 /// The answer of `kinematic`.
 #[derive(Clone, Debug)]
@@ -172,7 +172,7 @@ pub(super) fn control_of(
     if (point - blocks[i].centroid).norm() > blocks[i].size {
         let center: [f64; 3] = blocks[i].centroid.into();
         return Err(error(format!("the control point is no point of {}", c.block))
-            .hint(format!("its centre of mass is at {}", crate::number::point(center))));
+            .hint(format!("its centre of mass is at {}", base::number::point(center))));
     }
     Ok((i, point))
 }

@@ -1,17 +1,17 @@
 //! Models that have independent parts in common: each part is answered once.
 //!
 //! No load, force or rate of a part depends on anything beside it, and each is asked in units and
-//! about an origin of its own ([`crate::interface::parts`]). So its answer is the same to the last
+//! about an origin of its own ([`model::interface::parts`]). So its answer is the same to the last
 //! bit in every model that has the same blocks in it, free and held alike, with the same loads,
 //! contacts and members; contacts follow from the blocks where all models are made of one
-//! ([`crate::interface::at_stage`]). What is taken over is checked again in each model
+//! ([`model::interface::at_stage`]). What is taken over is checked again in each model
 //! ([`Proved`]).
 
 use super::{Assessment, Control, Proved, assess::of_part, parts};
-use crate::{
+use check::verdict::Verdict;
+use model::{
     assembly::Wrench,
     interface::{Model, Part},
-    verdict::Verdict,
 };
 use std::{
     collections::HashMap,

@@ -14,17 +14,11 @@ use super::{
     near::Near,
     parts,
 };
-use crate::{
-    assembly::Wrench,
-    deadline::Deadline,
-    interface::Model,
-    program::{self, LiveLoad, Statics, StaticsOptions, Unknowns},
-    solve::{EngineSettings, Passed},
-    strength::laws::unlimited,
+use base::tolerance;
+use check::{
     terms::{Attempt, Bracket, Deciding, Outcome},
-    tolerance,
     verdict::{
-        Forces, Rate, Verdict, certificate, check,
+        Forces, Rate, Verdict, certificate, claim,
         exact::{
             existence,
             motion::{self, MotionProof},
@@ -32,6 +26,12 @@ use crate::{
         mechanism::{self, Mechanism},
         no_forces,
     },
+};
+use model::{assembly::Wrench, interface::Model, strength::laws::unlimited};
+use solve::{
+    EngineSettings, Passed,
+    deadline::Deadline,
+    program::{self, LiveLoad, Statics, StaticsOptions, Unknowns},
 };
 
 /// The answer of [`limit`], with its evidence.
@@ -149,7 +149,7 @@ pub(super) fn of_part_near(
         ..StaticsOptions::default()
     };
     let mut statics = Statics::new(model, options);
-    let natural = check::natural_factor(assembly);
+    let natural = claim::natural_factor(assembly);
     let mut answer = unknown(model, statics.left_out.clone());
     let mut scale = natural;
     let forces_only = statics.in_forces_only();
@@ -240,12 +240,12 @@ fn prove(
         )
     {
         let other = motion::motion(model, &mended);
-        if check::upper_bound(other, || f64::INFINITY).is_finite() {
+        if claim::upper_bound(other, || f64::INFINITY).is_finite() {
             (answer.rates, moved) = (mended, other);
         }
     }
     let upper = |forces: &Forces, rates: &[Rate]| {
-        check::upper_bound(moved, || certificate::kinematics(model, rates, forces).upper())
+        claim::upper_bound(moved, || certificate::kinematics(model, rates, forces).upper())
     };
     answer.bracket.upper = upper(&answer.forces, &answer.rates);
     let start = value.min(answer.bracket.upper);
@@ -305,7 +305,7 @@ pub(super) fn carried(
     control: &Control,
 ) -> Option<LoadFactor> {
     if answer.outcome == Outcome::Found {
-        let natural = check::natural_factor(&model.assembly);
+        let natural = claim::natural_factor(&model.assembly);
         let proved = prove(model, control, &mut answer, natural, &mut None);
         let value = answer.value.map_or(0.0, f64::abs);
         let width = tolerance::LOAD_FACTOR_WIDTH * value + tolerance::LOAD_FACTOR_FLOOR * natural;
@@ -377,7 +377,7 @@ fn climb(
             assembly.free().map(|i| certificate::power(&s.residuals[i], &c.rates[i]).abs()).sum();
         if k.live_power > 0.0 {
             // Rates that are no mechanism bound nothing.
-            let natural = check::natural_factor(assembly);
+            let natural = claim::natural_factor(assembly);
             let allowed = tolerance::LOAD_FACTOR_BEHIND * lambda.abs()
                 + tolerance::LOAD_FACTOR_WIDTH * natural;
             if k.behind(&c.forces) <= allowed {
@@ -441,7 +441,7 @@ pub fn attempt(model: &Model, way: &Formulation) -> LoadFactor {
     let assembly = &model.assembly;
     let mut statics = Statics::new(model, StaticsOptions { live: true, ..way.options });
     let mut answer = unknown(model, statics.left_out.clone());
-    let scale = if way.options.unscaled { 1.0 } else { check::natural_factor(assembly) };
+    let scale = if way.options.unscaled { 1.0 } else { claim::natural_factor(assembly) };
     let Formulation { unknowns, unit, local, tolerance, engine, .. } = *way;
     climb(
         model,
@@ -453,7 +453,7 @@ pub fn attempt(model: &Model, way: &Formulation) -> LoadFactor {
     let value = answer.value.map_or(0.0, f64::abs);
     if answer.bracket.is_narrow(
         tolerance::LOAD_FACTOR_WIDTH * value
-            + tolerance::LOAD_FACTOR_FLOOR * check::natural_factor(assembly),
+            + tolerance::LOAD_FACTOR_FLOOR * claim::natural_factor(assembly),
     ) {
         answer.outcome = Outcome::Found;
     }
@@ -504,7 +504,7 @@ fn diagnose(model: &Model, control: &Control, answer: &mut LoadFactor) -> bool {
         return true;
     }
     // The live load in the size of the dead load, so that the same threshold applies.
-    let (alone, natural) = check::live_alone(assembly);
+    let (alone, natural) = claim::live_alone(assembly);
     let (unlimited, kept) = unlimited(interfaces);
     let wedge = least_unbalance(&Model::new(alone, unlimited), LiveLoad::Absent, control);
     answer.attempts.extend(wedge.attempts.iter().cloned());

@@ -2,7 +2,7 @@
 //!
 //! *Forces* that lie outside their cones by rounding are cut to them; what that leaves unbalanced
 //! is rounding, and the proof that forces which balance exactly exist nearby covers it
-//! ([`existence`](crate::verdict::exact::existence)).
+//! ([`existence`](check::verdict::exact::existence)).
 //!
 //! *Mechanisms* close joints by rounding where these should turn or slide. A little of a motion
 //! that opens every joint makes up for that: how far a joint closes is a sublinear function of the
@@ -12,23 +12,25 @@
 //! it is.
 
 use super::attempt::is_large;
-use crate::{
+use base::tolerance;
+use check::verdict::{
+    Forces, Rate, at, certificate,
+    exact::motion::{MotionProof, motion},
+    joint::{Strength, rolling_arm},
+    member::{self, Bounds},
+    no_forces,
+};
+use model::{
     assembly::{Assembly, Wrench},
-    deadline::Deadline,
     interface::{Interface, Interfaces, Model},
-    program::{Statics, StaticsOptions, Unknowns, opening},
-    scene::Friction,
-    solve::{self, EngineSettings, Settings},
-    tolerance,
-    verdict::{
-        Forces, Rate, at, certificate,
-        exact::motion::{MotionProof, motion},
-        joint::{Strength, rolling_arm},
-        member::{self, Bounds},
-        no_forces,
-    },
 };
 use nalgebra::Vector3;
+use scene::Friction;
+use solve::{
+    EngineSettings, Settings,
+    deadline::Deadline,
+    program::{Statics, StaticsOptions, Unknowns, opening},
+};
 
 /// Forces without those of joints that carry no more than this share of the greatest of all.
 pub(super) fn without(forces: &Forces, share: f64) -> Forces {

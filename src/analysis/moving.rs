@@ -14,15 +14,17 @@ use super::{
     coulomb::{DryLoadFactor, Found},
     limit,
 };
-use crate::{
+use base::{
     error::{InputError, JsonPath},
-    interface::Model,
-    parallel,
-    scene::Scene,
     tolerance,
-    train::{self, Loaded, Position, Standing, Way},
-    verdict::Verdict,
 };
+use check::verdict::Verdict;
+use cholesky::parallel;
+use model::{
+    interface::Model,
+    train::{self, Loaded, Position, Standing, Way},
+};
+use scene::Scene;
 use search::{Dip, Step, dips, golden_section};
 
 /// The answer about a train.

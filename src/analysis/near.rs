@@ -1,7 +1,8 @@
 //! Where a program begins that differs from the last one by its loads alone, as those of two directions of
 //! a tilt do: near a point that the last one passed.
 
-use crate::{interface::Part, solve::Passed};
+use model::interface::Part;
+use solve::Passed;
 use std::{
     collections::BTreeMap,
     sync::{Mutex, PoisonError},

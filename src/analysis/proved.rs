@@ -7,15 +7,13 @@ use super::{
     coulomb::{DryLoadFactor, Found},
     thrust::ThrustEnd,
 };
-use crate::{
-    interface::Model,
-    verdict::{
-        Evidence, Forces, Verdict,
-        check::{self, Claim, Findings},
-        exact::Grade,
-        thrust::{MemberAt, Sought},
-    },
+use check::verdict::{
+    Evidence, Forces, Verdict,
+    claim::{self, Claim, Findings},
+    exact::Grade,
+    thrust::{MemberAt, Sought},
 };
+use model::interface::Model;
 use std::{ops::Deref, time::Instant};
 
 /// What claims something about a scene, with the evidence for it.
@@ -48,7 +46,7 @@ impl<T: Claims> Proved<T> {
         let start = Instant::now();
         let claim = answer.claim();
         let findings =
-            claim.map(|c| check::verify(model, &c, answer.evidence())).unwrap_or_default();
+            claim.map(|c| claim::verify(model, &c, answer.evidence())).unwrap_or_default();
         let refused = claim.filter(|_| !findings.proved());
         if refused.is_some() {
             answer.withdraw();

@@ -2,12 +2,8 @@
 //! made ([`Question::check`]).
 
 use super::{Control, Law, SettleOptions, StagesOptions, StateOptions};
-use crate::{
-    error::{InputError, JsonPath},
-    ground::ShakeOptions,
-    path::saved::SavedPose,
-    rocking::RockOptions,
-};
+use base::error::{InputError, JsonPath};
+use check::{ground::ShakeOptions, path::saved::SavedPose, rocking::RockOptions};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -18,17 +18,18 @@ use super::{
     stability::{held, without},
     tilt,
 };
-use crate::{
-    assembly,
-    dynamics::granular::{Course, Disturbance, Flow, Moment, Poses, flow},
+use base::{
     error::{Finding, FindingCode, InputError},
-    generate::{Deposit, deposit, filled},
-    interface::prepare,
-    scene::{BlockSpec, Protocol, ProtocolKind, Rotation, Scene},
     tolerance::GRAIN_GAP,
 };
 use confirm::Confirmed;
+use dynamics::granular::{Course, Disturbance, Flow, Moment, Poses, flow};
+use model::{assembly, interface::prepare};
 use nalgebra::{Unit, UnitQuaternion, Vector3};
+use scene::{
+    BlockSpec, Protocol, ProtocolKind, Rotation, Scene,
+    generate::{Deposit, deposit, filled},
+};
 use seen::{Recorder, Seen};
 use serde::{Deserialize, Serialize};
 use std::{collections::BTreeMap, ops::ControlFlow, time::Instant};

@@ -6,12 +6,12 @@
 //! what is made with reuse is the same bit by bit as what is made without.
 
 use super::follow::machine::{Built, MachineOptions};
-use crate::{
+use base::error::InputError;
+use model::{
     assembly::{self, Blocks},
-    error::InputError,
     interface::{self, Interfaces, Model},
-    scene::Scene,
 };
+use scene::Scene;
 use std::{
     collections::{HashMap, VecDeque},
     hash::Hash,
@@ -52,7 +52,7 @@ impl Reuse {
     /// `is_over`.
     ///
     /// # Errors
-    /// As [`prepare_until`](crate::interface::prepare_until).
+    /// As [`prepare_until`](model::interface::prepare_until).
     pub fn prepare(
         &self,
         scene: &Scene,

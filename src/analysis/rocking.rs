@@ -2,8 +2,8 @@
 //! integrated.
 
 use super::follow::machine::{Built, MachineOptions};
-use crate::{
-    error::{InputError, JsonPath},
+use base::error::{InputError, JsonPath};
+use check::{
     ground::Motion,
     rocking::{History, RockOptions, RunSettings, Scan, Search, run, scan},
 };

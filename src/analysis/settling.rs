@@ -1,9 +1,7 @@
 //! What is asked of supports that move.
 
-use crate::{
-    error::{InputError, JsonPath},
-    path::saved::SavedPose,
-};
+use base::error::{InputError, JsonPath};
+use check::path::saved::SavedPose;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -9,13 +9,10 @@
 //! the packing that it was asked about.
 
 use super::{Control, Outcome, Tilt, tilt};
-use crate::{
-    error::InputError,
-    generate,
-    interface::{Model, floating},
-    scene::{Load, Scene, Template},
-};
+use base::error::InputError;
+use model::interface::{Model, floating};
 use nalgebra::Vector3;
+use scene::{Load, Scene, Template, generate};
 use std::collections::HashSet;
 
 /// A packing tipped towards several directions.
@@ -84,7 +81,7 @@ pub fn packing(
 /// asked for, the round with the answer has the value with dry friction as well.
 ///
 /// # Errors
-/// As [`turned`](crate::verdict::tilted::turned).
+/// As [`turned`](check::verdict::tilted::turned).
 pub fn stability(
     model: &Model,
     loose: &[String],

@@ -18,12 +18,8 @@ use super::{
     known::Known,
     thrust::{ThrustEnd, level, outwards, thrust},
 };
-use crate::{
-    assembly::{self, AskedStages, Placed, Stage, Wrench},
-    error::{InputError, JsonPath},
-    interface::{Model, at_stage},
-    parallel,
-    scene::Scene,
+use base::error::{InputError, JsonPath};
+use check::{
     terms::{Doubt, Order},
     verdict::{
         Verdict,
@@ -31,6 +27,12 @@ use crate::{
         tilted::no_tilt,
     },
 };
+use cholesky::parallel;
+use model::{
+    assembly::{self, AskedStages, Placed, Stage, Wrench},
+    interface::{Model, at_stage},
+};
+use scene::Scene;
 
 /// The answer of `stages`.
 #[derive(Clone, Debug)]

@@ -7,12 +7,9 @@
 //! is checked as any answer is ([`Proved`]): a wrong guess costs its check, and is no answer.
 
 use super::{Assessment, Proved, assess::from_forces};
-use crate::{
-    assembly::Wrench,
-    interface::Model,
-    tolerance,
-    verdict::{Forces, Verdict, certificate, mechanism},
-};
+use base::tolerance;
+use check::verdict::{Forces, Verdict, certificate, mechanism};
+use model::{assembly::Wrench, interface::Model};
 use std::collections::VecDeque;
 
 /// So many answers are kept of either verdict. More: mixtures of more pairs are looked at. Fewer: a

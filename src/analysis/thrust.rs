@@ -10,23 +10,29 @@ use super::{
     geometric::{Geometric, geometric_factor},
     parts,
 };
-use crate::{
-    assembly::Action,
-    deadline::Deadline,
+use base::{
     error::{InputError, JsonPath},
-    interface::{Interfaces, Model},
-    program::{self, Statics, StaticsOptions},
-    solve::EngineSettings,
-    strength::laws::unlimited,
-    terms::{Attempt, Bracket, Law, Outcome},
     tolerance,
+};
+use check::{
+    terms::{Attempt, Bracket, Law, Outcome},
     verdict::{
         Forces, Rate, Verdict, certificate, no_forces,
         section::centroid,
         thrust::{Extreme, MemberAt, Sought, ThrustAt, width},
     },
 };
+use model::{
+    assembly::Action,
+    interface::{Interfaces, Model},
+    strength::laws::unlimited,
+};
 use nalgebra::Vector3;
+use solve::{
+    EngineSettings,
+    deadline::Deadline,
+    program::{self, Statics, StaticsOptions},
+};
 
 /// One end of the range of thrusts.
 #[derive(Clone, Debug)]
@@ -417,7 +423,7 @@ impl Problem<'_> {
         let mut endless = false;
         if let Some(Candidate { forces, .. }) = done.candidate.take() {
             let bare = Model::new(
-                crate::verdict::thrust::unloaded(&self.model.assembly),
+                check::verdict::thrust::unloaded(&self.model.assembly),
                 unlimited.interfaces,
             );
             let s = certificate::statics(&bare, &forces, 0.0);

@@ -1,6 +1,6 @@
 //! At what tilt does it fall? One load-factor program a direction.
 //!
-//! `tan θ` is the load factor of the own weight across gravity ([`crate::verdict::tilted`]).
+//! `tan θ` is the load factor of the own weight across gravity ([`check::verdict::tilted`]).
 //!
 //! Stresses do not turn. Where joints have strengths or water, all forces are divided by cos θ, and
 //! with them the stresses: the load factor is asked for with joints `√(1 + tan² θ)` times as
@@ -14,15 +14,14 @@ use super::{
     near::Near,
     parts::{self, limit::PartMethods},
 };
-use crate::{
-    error::InputError,
+use base::{error::InputError, tolerance};
+use check::verdict::{
+    Forces, Verdict,
+    tilted::{stressed, tilted, turned},
+};
+use model::{
     interface::{Model, Part},
     strength::laws::are_dry,
-    tolerance,
-    verdict::{
-        Forces, Verdict,
-        tilted::{stressed, tilted, turned},
-    },
 };
 use nalgebra::Vector3;
 

@@ -147,12 +147,12 @@ impl Tree {
             Ok(rests.list.pop())
         };
         let alone = || pieces.iter().map(&one).collect();
-        #[cfg(feature = "solve")]
+        #[cfg(feature = "threads")]
         let done: Result<Vec<Option<Rest>>, NoFactor> = match threads.degree() {
             1 => alone(),
             many => crate::parallel::try_map(many, &pieces, one).unwrap_or_else(|_| alone()),
         };
-        #[cfg(not(feature = "solve"))]
+        #[cfg(not(feature = "threads"))]
         let done: Result<Vec<Option<Rest>>, NoFactor> = alone();
         let Ok(mut done) = done else { return false };
         let mut rests = Rests { list: Vec::new(), free: room };
@@ -225,7 +225,7 @@ impl Tree {
 }
 
 /// Strips in narrower ones, each by itself.
-#[cfg(feature = "solve")]
+#[cfg(feature = "threads")]
 fn on_threads(strips: [Strip<'_>; 2], threads: usize, work: impl Fn(Strip<'_>) + Sync + Send) {
     // The first columns of a triangle have more numbers than the last.
     let mut narrow = Vec::new();
@@ -242,7 +242,7 @@ fn on_threads(strips: [Strip<'_>; 2], threads: usize, work: impl Fn(Strip<'_>) +
     crate::parallel::small(narrow, work);
 }
 
-#[cfg(not(feature = "solve"))]
+#[cfg(not(feature = "threads"))]
 fn on_threads(strips: [Strip<'_>; 2], _: usize, work: impl Fn(Strip<'_>)) {
     strips.into_iter().for_each(work);
 }

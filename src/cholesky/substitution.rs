@@ -128,7 +128,7 @@ impl Substitution {
         // Where not all threads can be started, what was done is done once more.
         let alone = || self.pieces.iter().for_each(one);
         let many = if factor.len() > SHARED { threads.degree() } else { 1 };
-        #[cfg(feature = "solve")]
+        #[cfg(feature = "threads")]
         if many > 1 {
             return crate::parallel::map(many, &self.pieces, one).map_or_else(|_| alone(), drop);
         }
@@ -140,7 +140,7 @@ impl Substitution {
 /// Does the work on a thread of the pool where it shares something out: from there that takes
 /// microseconds, from elsewhere tens of them.
 fn in_pool(threads: usize, work: impl FnOnce() + Send) {
-    #[cfg(feature = "solve")]
+    #[cfg(feature = "threads")]
     if threads > 1 {
         return crate::parallel::in_pool(work);
     }
@@ -241,7 +241,7 @@ fn shared_out(list: &mut [f64], threads: usize, work: impl Fn(usize, &mut [f64])
     if list.is_empty() {
         return;
     }
-    #[cfg(feature = "solve")]
+    #[cfg(feature = "threads")]
     if threads > 1 {
         let size = list.len().div_ceil(threads);
         let parts = list.chunks_mut(size).enumerate().collect();

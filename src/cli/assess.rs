@@ -10,7 +10,7 @@ use super::{
 use std::ops::ControlFlow;
 use voussoir::{
     analysis::{Answer, AssessOptions, Question, SimulateOptions},
-    proof::ResultFile,
+    proof::{ResultFile, saved},
     verdict::Verdict,
 };
 
@@ -30,7 +30,7 @@ pub fn run(args: &Assess, terminal: &Terminal) -> anyhow::Result<Exit> {
         if let Answer::Simulate(outcome) =
             camera.ask(&session, &asked, &mut |_| ControlFlow::Continue(()))?
         {
-            file = file.with_simulation(&session.model, Some(assessment), &outcome);
+            file = saved::with_simulation(file, &session.model, Some(assessment), &outcome);
         }
         film = camera.frames();
     }

@@ -10,7 +10,7 @@ use anyhow::bail;
 use voussoir::{
     analysis::{Answer, Critical, CriticalOptions, Question},
     number::fixed,
-    proof::{ResultFile, critical::exhausted},
+    proof::{critical::exhausted, saved},
     report::view::View,
     verdict::Verdict,
 };
@@ -68,7 +68,7 @@ fn picture(session: &Session, answer: &Critical) -> anyhow::Result<Seen> {
     let Some(side) = sides.into_iter().find(|s| s.assessment.verdict == Verdict::Unstable) else {
         return Ok(Seen::Scene(Vec::new()));
     };
-    let file = ResultFile::assessment(&session.scene, &side.model, &side.assessment);
+    let file = saved::assessment(&session.scene, &side.model, &side.assessment);
     let mut view = View::new(&side.model, &file, Vec::new())?;
     view.caption = format!("falls with {} at {}", answer.range.pointer, fixed(side.value, DIGITS));
     Ok(Seen::Other(Box::new(view)))

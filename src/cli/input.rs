@@ -47,7 +47,7 @@ pub fn scene_of(
 ) -> anyhow::Result<(Scene, Source, Vec<Finding>)> {
     let (mut scene, source) = scene::read_bytes(name, bytes)?;
     let folder = path.parent().unwrap_or(Path::new(""));
-    let findings = read_meshes(&mut scene, folder, reach).map_err(|e| e.located(&source))?;
+    let findings = read_meshes(&mut scene, folder, reach).map_err(|e| source.located(e))?;
     let meshes = scene.blocks.iter().filter_map(|b| match &b.shape {
         Shape::Mesh { path, .. } => Some(folder.join(path)),
         _ => None,

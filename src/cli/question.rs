@@ -16,12 +16,12 @@ use voussoir::{
     analysis::{
         Answer, Control, Difference, Law, Question, Watch, ask, ask_watched, coulomb::Found,
     },
-    deadline::Deadline,
+    deadline::{Deadline, clock},
     dynamics::Frame,
     error::{Finding, FindingCode, InputError},
-    interface::{Model, prepare, prepare_until},
+    interface::{Model, prepare_timed},
     limits,
-    proof::{ResultFile, answer::FactorStatus, result::QuestionKind as Kind, work::Work},
+    proof::{ResultFile, answer::FactorStatus, result::QuestionKind as Kind, saved, work::Work},
     report::{
         json, kinematic, moving, page,
         record::Record,
@@ -101,10 +101,10 @@ impl<'a> Session<'a> {
         let read = start.elapsed().as_secs_f64();
         // An answer that says what is open is worth a second.
         let is_over = || deadline.is_over() && start.elapsed().as_secs_f64() > PATIENCE;
-        let mut model = prepare_until(&scene, &is_over).map_err(|e| -> anyhow::Error {
+        let mut model = prepare_timed(&scene, &is_over, &clock).map_err(|e| -> anyhow::Error {
             match is_over() {
                 true => TimeIsUp(e.to_string()).into(),
-                false => e.located(&source).into(),
+                false => source.located(e).into(),
             }
         })?;
         model.timings.read = read;
@@ -172,10 +172,10 @@ impl<'a> Session<'a> {
         if ranges.is_empty() {
             return Ok(());
         }
-        let refuse = |e: InputError| if e.path.0.is_empty() { e } else { e.located(&self.source) };
+        let refuse = |e: InputError| if e.path.0.is_empty() { e } else { self.source.located(e) };
         let worst = sweep::worst(&self.scene, ranges, asked, &self.control()).map_err(refuse)?;
         let read = self.model.timings.read;
-        let mut model = prepare(&worst.scene).map_err(refuse)?;
+        let mut model = prepare_timed(&worst.scene, &|| false, &clock).map_err(refuse)?;
         model.timings.read = read;
         let notes = worst
             .argument
@@ -209,7 +209,7 @@ impl<'a> Session<'a> {
 
     /// The result that proves an answer.
     pub fn result(&self, question: &Question, answer: &Answer) -> anyhow::Result<ResultFile> {
-        ResultFile::of_question(question, &self.scene, &self.model, answer, &self.control())
+        saved::of_question(question, &self.scene, &self.model, answer, &self.control())
             .context("there is no answer to write down")
     }
 
@@ -226,7 +226,7 @@ impl<'a> Session<'a> {
     /// An error in the scene, with its place.
     pub fn refuse(&self, error: InputError) -> anyhow::Error {
         // What has no place in the scene is about the command line.
-        if error.path.0.is_empty() { error.into() } else { error.located(&self.source).into() }
+        if error.path.0.is_empty() { error.into() } else { self.source.located(error).into() }
     }
 
     /// What was read of the scene.

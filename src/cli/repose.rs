@@ -15,7 +15,7 @@ use voussoir::{
     analysis::{Answer, AssessOptions, Question, ReposeOptions, ask, doubt, fabric},
     error::InputError,
     interface::{Model, prepare},
-    proof::packing::{PackingDirection, PackingFile},
+    proof::{packing::PackingDirection, saved},
     report::{
         contacts,
         grains::{self, GrainFormat},
@@ -78,8 +78,8 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
     let model = &packing.model;
     let forces = (args.fabric || csv.is_some()).then(|| level(&session, model)).transpose()?;
     let solve = start.elapsed().as_secs_f64();
-    let packed = PackingFile::new(&session.scene, args.moving_mass, packing)
-        .map_err(|e| session.refuse(e))?;
+    let packed =
+        saved::packing(&session.scene, args.moving_mass, packing).map_err(|e| session.refuse(e))?;
     let (mut file, proof) = packed.context("no direction to tilt towards")?;
     (file.timings.check, file.timings.solve) =
         (proof.timings.check, (solve - proof.timings.check).max(0.0));

@@ -14,7 +14,7 @@ use std::{fs::File, ops::ControlFlow};
 use voussoir::{
     analysis::{Answer, AssessOptions, Question, SimulateOptions, doubt},
     dynamics::{Fate, Frame},
-    proof::ResultFile,
+    proof::saved,
     report::trajectory::TrajectoryWriter,
     verdict::Verdict,
 };
@@ -87,7 +87,7 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
         Some(Answer::Assess(a)) => Some(a),
         _ => None,
     };
-    let mut file = ResultFile::simulated(&session.scene, &session.model, assessment, outcome);
+    let mut file = saved::simulated(&session.scene, &session.model, assessment, outcome);
     file.doubt = doubt(&answer, &session.model, &session.control());
     let file = session.answer_seen(terminal, &args.options(), Seen::Scene(film), file)?;
     // What is proved to fall does not stand because it was seen to.

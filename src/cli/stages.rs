@@ -9,7 +9,7 @@ use super::{
 };
 use voussoir::{
     analysis::{Answer, Question, StagesOptions},
-    proof::{ResultFile, stages::StagesAnswer},
+    proof::{ResultFile, saved, stages::StagesAnswer},
     report::{stages, view::View},
     verdict::Verdict,
 };
@@ -60,7 +60,7 @@ fn worst<'a>(
     let Answer::Stages(asked) = answer else { return None };
     let said = file.answer.stages().filter(|_| !asked.remove_each)?;
     let stage = asked.stages.iter().find(|s| s.stage.name == said.worst)?;
-    let mut own = ResultFile::assessment(&session.scene, &stage.model, &stage.verdict);
+    let mut own = saved::assessment(&session.scene, &stage.model, &stage.verdict);
     own.scene.name = format!("{}: {}", file.scene.name, said.worst);
     Some((&stage.model, own))
 }

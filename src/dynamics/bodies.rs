@@ -4,15 +4,17 @@ use super::{
     pieces::{self, MOST},
     units::Units,
 };
-use crate::{
-    assembly::{Assembly, Block, JointLaw, Solid},
+use base::{
     error::InputError,
-    interface::{ContactKind, Model},
-    scene::Friction,
-    strength::rolling_arm,
     tolerance::{SKIN, SKIN_OF_THICKNESS},
 };
+use model::{
+    assembly::{Assembly, Block, JointLaw, Solid},
+    interface::{ContactKind, Model},
+    strength::rolling_arm,
+};
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
+use scene::Friction;
 use std::collections::{HashMap, HashSet, hash_map::Entry};
 
 /// A block as the engine sees it; coordinates about its own centre of mass, axes those of the scene

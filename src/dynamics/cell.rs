@@ -1,6 +1,6 @@
 //! A convex cell: cutting it by planes, eroding it.
 
-use crate::plane::clip::inside;
+use base::plane::clip::inside;
 use nalgebra::{Matrix3, Vector3};
 
 /// Points closer to a plane than this × the cell's reach lie on it, and points this close are one.

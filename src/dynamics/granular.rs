@@ -18,11 +18,13 @@ use super::{
     rolling::Rolling,
     units::Units,
 };
-use crate::{
-    assembly::Assembly,
+use base::{
     error::InputError,
-    interface::{Interfaces, Model},
     tolerance::{GRAIN_REST_ENERGY, GRAIN_REST_TIME, GRAIN_SKIN},
+};
+use model::{
+    assembly::Assembly,
+    interface::{Interfaces, Model},
 };
 use nalgebra::{Rotation3, Unit, UnitQuaternion, Vector3};
 use std::{collections::BTreeMap, ops::ControlFlow, time::Instant};

@@ -7,7 +7,7 @@
 //! direction that it has. Dowels and fingers are left out.
 
 use super::{bodies::Body, rapier::World, units::Units};
-use crate::{
+use model::{
     assembly::{Action, Member, MemberKind},
     interface::Interfaces,
 };
@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 
 /// Natural frequency of a member against the blocks at its ends × step. Larger: ties that hold many
 /// blocks shake, for their forces are those of the step before. Smaller: they give way by more than
-/// what counts as rest ([`crate::tolerance::SETTLED_FINE`]).
+/// what counts as rest ([`base::tolerance::SETTLED_FINE`]).
 const FREQUENCY: f64 = 0.3;
 /// Damping ratio of a member.
 const DAMPING: f64 = 0.7;

@@ -1,9 +1,7 @@
 //! What a simulation says.
 
-use crate::{
-    error::Finding,
-    terms::{Fate, Fidelity, Run},
-};
+use base::error::Finding;
+use check::terms::{Fate, Fidelity, Run};
 use nalgebra::{UnitQuaternion, Vector3};
 
 /// The motion of a block from the start.

@@ -12,8 +12,8 @@
 //!   trees*, SIGGRAPH 1987.
 
 use super::cell::{Cell, Face, mean};
-use crate::assembly::Polyhedron;
-use crate::plane::clip::inside;
+use base::plane::clip::inside;
+use model::assembly::Polyhedron;
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 
 /// Corners of a face that the engine sees.

@@ -15,12 +15,14 @@ use super::{
     rolling::Rolling,
     units::Units,
 };
-use crate::{
-    assembly::Wrench,
+use base::{
     error::{Finding, FindingCode, InputError},
+    tolerance::{FALLEN, MOVING_ENERGY, REST_ENERGY, REST_TIME, SETTLED, SETTLED_FINE, SKIN},
+};
+use model::{
+    assembly::Wrench,
     interface::{Interface, Interfaces, Model},
     strength::{crushing::crushes, uplift},
-    tolerance::{FALLEN, MOVING_ENERGY, REST_ENERGY, REST_TIME, SETTLED, SETTLED_FINE, SKIN},
 };
 use nalgebra::Vector3;
 use std::{
@@ -51,13 +53,11 @@ const QUIET: f64 = 1e-3;
 /// A displacement is measured against a thickness of at least this × the block's reach.
 const THINNEST: f64 = 0.01;
 
-impl Fidelity {
-    /// Steps in one √(L/g), and substeps of each.
-    fn fineness(self) -> (f64, usize) {
-        match self {
-            Self::Fast => (100.0, 20),
-            Self::Fine => (400.0, 20),
-        }
+/// Steps in one √(L/g), and substeps of each.
+fn fineness(fidelity: Fidelity) -> (f64, usize) {
+    match fidelity {
+        Fidelity::Fast => (100.0, 20),
+        Fidelity::Fine => (400.0, 20),
     }
 }
 
@@ -221,7 +221,7 @@ impl Stage<'_> {
     /// # Errors
     /// A block that it does not take.
     fn world(&self, fidelity: Fidelity) -> Result<(World<'_>, f64), InputError> {
-        let (per_unit, iterations) = fidelity.fineness();
+        let (per_unit, iterations) = fineness(fidelity);
         let dt = 1.0 / per_unit;
         let threads = self.settings.threads.max(1);
         let step = Step {
@@ -367,7 +367,7 @@ impl Stage<'_> {
                 fate,
                 stop,
                 step: dt * self.units.time,
-                substeps: fidelity.fineness().1,
+                substeps: fineness(fidelity).1,
                 steps,
                 time: fell_at.unwrap_or(steps as f64 * dt) * self.units.time,
                 horizon: horizon * self.units.time,

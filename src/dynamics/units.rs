@@ -2,7 +2,7 @@
 //! in median block sizes, masses in median block masses, times such that the blocks' acceleration
 //! under their loads is one.
 
-use crate::assembly::{Assembly, Wrench};
+use model::assembly::{Assembly, Wrench};
 use nalgebra::Vector3;
 
 /// What one unit of the engine is.

@@ -29,7 +29,7 @@ pub fn located(error: InputError, source: &Source) -> InputError {
     if error.position.is_some() || error.path.0.is_empty() {
         return error;
     }
-    error.located(source)
+    source.located(error)
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use crate::{
     deadline::Deadline,
     error::InputError,
     interface::Model,
-    proof::{ResultFile, result::QuestionKind as Kind, work::Work},
+    proof::{result::QuestionKind as Kind, saved, work::Work},
     report::{
         kinematic, page,
         text::{self, Asked, Layout, TextOptions},
@@ -82,7 +82,7 @@ pub fn answer(
 ) -> Result<Option<String>, InputError> {
     let (scene, model) = (ready.scene, ready.model);
     let control = Control { deadline, ..Control::default() };
-    let packed = ResultFile::of_question(question, scene, model, found, &control);
+    let packed = saved::of_question(question, scene, model, found, &control);
     if deadline.is_over() {
         return Ok(None);
     }

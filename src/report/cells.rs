@@ -2,7 +2,7 @@
 //! is more than text or a number, and none can be taken for the other: text is quoted, numbers are
 //! not. So a block named `007` or `1e5` is told from a number by every reader that looks.
 
-use crate::plain;
+use base::plain;
 
 /// A cell.
 pub(super) enum Cell {
@@ -62,7 +62,7 @@ impl Cell {
 
 /// Cells of a row, of whatever can be one.
 macro_rules! row {
-    ($($cell:expr),* $(,)?) => { [$($crate::report::cells::Cell::from($cell)),*] };
+    ($($cell:expr),* $(,)?) => { [$($crate::cells::Cell::from($cell)),*] };
 }
 pub(super) use row;
 

@@ -1,7 +1,9 @@
 //! Contact forces of a packing as CSV, a row for each contact that carries.
 
 use super::cells::{Cell, Table};
-use crate::{analysis::fabric, interface::Model, verdict::Forces};
+use analysis::fabric;
+use check::verdict::Forces;
+use model::interface::Model;
 
 /// The columns: blocks, centre of pressure (m), unit normal from `a` into `b`, normal and
 /// tangential force (N), share of friction used.

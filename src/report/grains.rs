@@ -11,12 +11,10 @@ use super::{
     cells::{Cell, Table},
     vtk,
 };
-use crate::{
-    assembly::{self, Solid},
-    error::{InputError, JsonPath},
-    scene::Scene,
-};
+use base::error::{InputError, JsonPath};
+use model::assembly::{self, Solid};
 use nalgebra::Vector3;
+use scene::Scene;
 use std::{fmt::Write, path::Path};
 
 /// What is written.

@@ -1,15 +1,12 @@
 //! The angle of repose of one protocol over several seeds as a result.
 
-use crate::proof::result::Versions;
-use crate::{
-    analysis::{
-        Outcome,
-        repose::{Heap, Margin, Slope, confirm::Confirmed, seen::Seen},
-    },
-    error::Finding,
-    number::short,
-    scene::Protocol,
+use analysis::{
+    Outcome,
+    repose::{Heap, Margin, Slope, confirm::Confirmed, seen::Seen},
 };
+use base::{error::Finding, number::short};
+use check::proof::result::Versions;
+use scene::Protocol;
 use serde::{Deserialize, Serialize};
 
 /// The version of the format.

@@ -3,15 +3,19 @@
 //! looked at as a question would, with stand-ins for what the file does not have (supports,
 //! friction).
 
-use crate::{
-    assembly::{Polyhedron, ShapeError},
+use base::{
     error::{Finding, FindingCode},
-    import::{ImportOptions, Imported, Origin},
-    interface::{Model, on_its_side, prepare},
     number::count,
-    scene::{BlockSpec, Friction, Scene, Shape},
+};
+use model::{
+    assembly::{Polyhedron, ShapeError},
+    interface::{Model, on_its_side, prepare},
 };
 use nalgebra::Vector3;
+use scene::{
+    BlockSpec, Friction, Scene, Shape,
+    import::{ImportOptions, Imported, Origin},
+};
 
 /// Structures whose blocks measure less than this after a scale below 1, m, were in metres before.
 /// Larger: models of 1 : 100 in millimetres are reported. Smaller: voussoirs of a metre, scaled by

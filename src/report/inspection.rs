@@ -6,13 +6,13 @@
 //! right-handed, `n` points from the first block into the second; contact forces act on the second.
 //! Indices count `blocks` from 0.
 
-use crate::{
+use base::error::Finding;
+use check::verdict::member::legs;
+use model::{
     assembly::{Action, JointLaw, Member, MemberKind, Wrench},
-    error::Finding,
     interface::{ContactKind, Model},
-    scene::{Friction, Scene, Train},
-    verdict::member::legs,
 };
+use scene::{Friction, Scene, Train};
 use schemars::{JsonSchema, generate::SchemaSettings};
 use serde::Serialize;
 

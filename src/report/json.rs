@@ -1,7 +1,7 @@
 //! JSON for people and programs: one member a line, but what fits on a line stays on it (points,
 //! forces, faces).
 
-use crate::plain;
+use base::plain;
 use serde::Serialize;
 use serde_json::Value;
 

@@ -6,11 +6,11 @@ use super::{
     plot::CurveError,
     plot::{self, Plot},
 };
-use crate::{
+use base::number::short;
+use check::{
     kinematic::{Capacity, States},
-    number::short,
     proof::{ResultFile, kinematic::KinematicAnswer, path::PathResult},
-    verdict::check::Claim,
+    verdict::claim::Claim,
 };
 use plotters::{
     prelude::{Circle, PathElement, RGBColor, SeriesLabelPosition, TriangleMarker},
@@ -46,7 +46,7 @@ fn points_with_members(file: &ResultFile, a: &KinematicAnswer) -> Vec<Point> {
 fn points_of(file: &ResultFile, a: &KinematicAnswer, path: Option<&PathResult>) -> Vec<Point> {
     let gravity = file.scene.input.gravity.iter().map(|c| c * c).sum::<f64>().sqrt();
     let (Some(path), Some(p)) = (path, &a.numbers.participation) else { return Vec::new() };
-    let point = |point: &crate::proof::path::PathPoint| match point.certificate.claim {
+    let point = |point: &check::proof::path::PathPoint| match point.certificate.claim {
         Some(Claim::LoadFactor { value, lower, upper }) => Some(Point {
             way: point.value,
             acceleration: p.acceleration(value, gravity, a.fc),

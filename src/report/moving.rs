@@ -6,11 +6,9 @@ use super::{
     plot::CurveError,
     plot::{self, Plot},
 };
-use crate::{
-    number::short,
-    proof::{ResultFile, answer::FactorStatus, moving::MovingAnswer},
-    train::{Travel, is_symmetric},
-};
+use base::number::short;
+use check::proof::{ResultFile, answer::FactorStatus, moving::MovingAnswer};
+use model::train::{Travel, is_symmetric};
 use plotters::{
     prelude::{Circle, PathElement, RGBColor, SeriesLabelPosition},
     style::Color,

@@ -6,7 +6,7 @@ use super::{
     view::{Body, View, ViewPart, ViewPose, ViewShape},
     vtk::ball,
 };
-use crate::{number::short, plain::printable};
+use base::{number::short, plain::printable};
 use nalgebra::{UnitQuaternion, Vector3};
 use std::fmt::Write;
 

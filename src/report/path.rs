@@ -4,13 +4,13 @@ use super::{
     cells::{Cell, Table},
     plot::{self, CurveError, Plot},
 };
-use crate::{
-    number::short,
+use base::number::short;
+use check::{
     proof::{
         ResultFile,
         path::{DrivenBy, PathEvent, PathEventKind, PathPoint, PathResult},
     },
-    verdict::check::Claim,
+    verdict::claim::Claim,
 };
 use plotters::{
     prelude::{Circle, PathElement, RGBColor, SeriesLabelPosition},
@@ -211,7 +211,7 @@ pub fn chart(file: &ResultFile) -> Result<String, CurveError> {
             chart
                 .draw_series([PathElement::new(line.clone(), colour.stroke_width(2))])
                 .map_err(refused)?
-                .label(crate::plain::cell(&name))
+                .label(base::plain::cell(&name))
                 .legend(plot::sample(colour));
             chart
                 .draw_series(line.into_iter().map(|p| Circle::new(p, 3, colour.filled())))

@@ -1,6 +1,6 @@
 //! Charts of lines on paper: area, axes and legend, which all of them share.
 
-use crate::number::short;
+use base::number::short;
 use plotters::{
     coord::types::RangedCoordf64,
     prelude::{
@@ -67,7 +67,7 @@ impl Plot<'_> {
             area.fill(&WHITE).map_err(CurveError::new)?;
             let mut chart = ChartBuilder::on(&area)
                 .margin(12)
-                .caption(crate::plain::cell(self.name), ("sans-serif", 18))
+                .caption(base::plain::cell(self.name), ("sans-serif", 18))
                 .x_label_area_size(42)
                 .y_label_area_size(self.left)
                 .build_cartesian_2d(across, up)

@@ -6,8 +6,8 @@ use super::{
     plot::CurveError,
     plot::{self, Plot},
 };
-use crate::{
-    number::short,
+use base::number::short;
+use check::{
     proof::{
         ResultFile,
         answer::LoadFactorAnswer,

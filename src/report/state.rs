@@ -6,12 +6,10 @@ use super::{
     plot::CurveError,
     plot::{self, Plot},
 };
-use crate::{
-    number::short,
-    proof::{
-        ResultFile,
-        state::{CurvePoint, JointAnswer, StateAnswer},
-    },
+use base::number::short;
+use check::proof::{
+    ResultFile,
+    state::{CurvePoint, JointAnswer, StateAnswer},
 };
 use plotters::{
     prelude::{Circle, PathElement, SeriesLabelPosition},

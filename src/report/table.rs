@@ -4,7 +4,9 @@ use super::{
     cells::{Cell, Table, row},
     view::{Joint, Mark, View},
 };
-use crate::{interface::ContactKind, scene::Friction, verdict::mechanism::JointMotion as Kind};
+use check::verdict::mechanism::JointMotion as Kind;
+use model::interface::ContactKind;
+use scene::Friction;
 use std::error::Error;
 
 /// Joints: the two blocks, what touches what, the centre of pressure (m; the middle where nothing

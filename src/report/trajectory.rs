@@ -1,7 +1,8 @@
 //! Trajectories as CSV, a row for each block and time, written as they come.
 
 use super::cells::{Cell, Table};
-use crate::{assembly::Assembly, dynamics::Frame};
+use dynamics::Frame;
+use model::assembly::Assembly;
 use std::io::Write;
 
 /// The columns.

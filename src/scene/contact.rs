@@ -1,6 +1,6 @@
 //! When faces touch.
 
-use crate::tolerance;
+use base::tolerance;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

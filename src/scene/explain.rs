@@ -1,13 +1,13 @@
 //! The reader's errors, in words for people: serde's messages name Rust types and no remedy.
 
 use super::{Source, suggest::suggest};
-use crate::error::{InputError, JsonPath, Step};
+use base::error::{InputError, JsonPath, Step};
 use serde::de::IgnoredAny;
 use serde_json::error::Category;
 use serde_path_to_error::Segment;
 
 /// A kind of file, in the words of its errors.
-pub(crate) struct Kind {
+pub struct Kind {
     /// What it is called: "scene".
     pub noun: &'static str,
     /// The value of its key `format`.

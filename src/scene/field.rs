@@ -1,7 +1,7 @@
 //! A number of a scene by its JSON pointer (RFC 6901), such as `/templates/0/arch/thickness`.
 
 use super::{Scene, read_str};
-use crate::error::{InputError, JsonPath};
+use base::error::{InputError, JsonPath};
 use serde_json::{Map, Number, Value, json};
 
 impl Scene {
@@ -120,9 +120,9 @@ fn missing(pointer: &str, path: &JsonPath, hint: &str) -> InputError {
 
 #[cfg(test)]
 mod tests {
-    use crate::scene::{Friction, read_str};
+    use crate::{Friction, read_str};
 
-    fn scene() -> crate::scene::Scene {
+    fn scene() -> crate::Scene {
         let text = r#"{ "format": "voussoir-scene/1", "joints": { "default": { "friction": "infinite" } }, "blocks": [
             { "id": "a", "shape": { "box": { "size": [1, 1, 1] } } } ],
             "templates": [ { "arch": { "radius": 5, "thickness": 0.8, "depth": 1, "voussoirs": 27 } } ] }"#;

@@ -1,7 +1,7 @@
 //! Names with `*`.
 
 /// Whether a pattern, in which `*` stands for any letters, fits a name.
-pub(crate) fn fits(pattern: &str, name: &str) -> bool {
+pub fn fits(pattern: &str, name: &str) -> bool {
     let mut pieces = pattern.split('*');
     let Some(rest) = pieces.next().and_then(|head| name.strip_prefix(head)) else { return false };
     let mut rest = rest;

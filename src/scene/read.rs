@@ -4,7 +4,7 @@ use super::{
     Scene, SceneFormat, Source,
     explain::{self, Kind},
 };
-use crate::{
+use base::{
     error::{InputError, JsonPath},
     limits,
 };
@@ -27,7 +27,7 @@ pub fn read_bytes(name: impl Into<String>, bytes: Vec<u8>) -> Result<(Scene, Sou
 }
 
 /// The bytes of a file as text.
-pub(crate) fn text(name: impl Into<String>, bytes: Vec<u8>) -> Result<Source, InputError> {
+pub fn text(name: impl Into<String>, bytes: Vec<u8>) -> Result<Source, InputError> {
     match String::from_utf8(bytes) {
         Ok(text) => Ok(Source::new(name, text)),
         Err(e) => {
@@ -72,7 +72,7 @@ const SCENE: Kind = Kind {
 };
 
 /// Reads a JSON file of a kind.
-pub(crate) fn read_as<T: DeserializeOwned>(
+pub fn read_as<T: DeserializeOwned>(
     kind: &Kind,
     source: Source,
 ) -> Result<(T, Source), InputError> {
@@ -82,7 +82,7 @@ pub(crate) fn read_as<T: DeserializeOwned>(
             JsonPath::root(),
             format!("a {} is a JSON object, not a list, string or number", kind.noun),
         );
-        return Err(error.hint(kind.start()).located(&source));
+        return Err(source.located(error.hint(kind.start())));
     }
     let mut deserializer = serde_json::Deserializer::from_str(&source.text);
     let value = serde_path_to_error::deserialize(&mut deserializer).map_err(|e| {
@@ -129,5 +129,5 @@ fn wrong_format(kind: &Kind, source: &Source) -> Option<InputError> {
         Some(other) => InputError::at(path, format!("unknown format {other}"))
             .hint(format!("this program reads \"{here}\"")),
     };
-    Some(error.located(source))
+    Some(source.located(error))
 }

@@ -1,6 +1,6 @@
 //! How large the grains of a protocol are.
 
-use crate::error::{InputError, JsonPath};
+use base::error::{InputError, JsonPath};
 use serde::{Deserialize, Serialize};
 
 /// Most that radii may differ from the mean.

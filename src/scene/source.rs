@@ -1,6 +1,6 @@
 //! Where a part of a JSON value stands in the text it was read from.
 
-use crate::error::{InputError, JsonPath, Step};
+use base::error::{InputError, JsonPath, Step};
 use serde::de::{DeserializeSeed, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use serde_json::value::RawValue;
 use std::{cell::Cell, fmt};
@@ -78,16 +78,14 @@ impl Source {
         }
         Some(at)
     }
-}
 
-impl InputError {
-    /// This error with the file's name and the position of its path (of the nearest enclosing value
+    /// An error with this file's name and the position of its path (of the nearest enclosing value
     /// where the file leaves the path out).
     #[must_use]
-    pub fn located(mut self, source: &Source) -> Self {
-        self.position = Some(source.locate_nearest(&self.path));
-        self.file = Some(source.name.clone());
-        self
+    pub fn located(&self, mut error: InputError) -> InputError {
+        error.position = Some(self.locate_nearest(&error.path));
+        error.file = Some(self.name.clone());
+        error
     }
 }
 

@@ -2,7 +2,7 @@
 
 /// The remedy for a `word` that is none of `known`: the nearest of them if one is near, else all of
 /// them, else none.
-pub(crate) fn suggest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
+pub fn suggest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
     const LIST_AT_MOST: usize = 12;
     let mut known: Vec<&str> = known.into_iter().collect();
     known.dedup();

@@ -2,7 +2,7 @@
 //! schema says what the reader does.
 
 use super::*;
-use crate::error::{InputError, JsonPath};
+use base::error::{InputError, JsonPath};
 use proptest::prelude::*;
 use serde_json::{Value, json};
 
@@ -192,7 +192,7 @@ fn an_error_found_later_gets_the_place_of_its_path() {
     let (_, source) = read_str("s.json", text).unwrap();
     let block = JsonPath::root().key("blocks").index(0);
     let located =
-        |path: &JsonPath| InputError::at(path.clone(), "wrong").located(&source).to_string();
+        |path: &JsonPath| source.located(InputError::at(path.clone(), "wrong")).to_string();
     assert_eq!(
         located(&block.key("shape").key("sphere").key("radius")),
         "s.json:3:51: blocks[0].shape.sphere.radius: wrong"

@@ -11,7 +11,7 @@ use super::{
     Pattern,
     krylov::{Blocks, Factors},
 };
-use crate::cholesky::dissected;
+use cholesky::dissected;
 use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
 
 /// Rows that are eliminated at a time. More: pivots, which are slow. Fewer: thin products.

@@ -1,7 +1,7 @@
 //! Probability → value: the inverse distribution functions of what a plan can ask for.
 
 use super::plan::Vary;
-use crate::{
+use base::{
     error::{InputError, JsonPath},
     tolerance,
 };
@@ -246,7 +246,7 @@ fn truncated(u: f64, low: f64, high: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sweep::{Lognormal, Normal};
+    use crate::{Lognormal, Normal};
 
     fn axis(vary: Vary, grid: bool) -> Axis {
         Axis::new(&vary, grid).unwrap()

@@ -6,10 +6,8 @@ use super::{
     Header, Row,
     sum::{Checked, Seal},
 };
-use crate::{
-    error::RowsError,
-    keep::{self, Alone, line},
-};
+use crate::keep::{self, Alone, line};
+use base::error::RowsError;
 use std::{
     collections::BTreeMap,
     path::Path,

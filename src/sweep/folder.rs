@@ -8,11 +8,10 @@ use super::{
     Header, Row, Shard,
     file::{self, ENDING, RowsFile},
 };
-use crate::{
+use crate::keep::line;
+use base::{
     error::{InputError, RowsError},
-    files,
-    keep::line,
-    limits,
+    files, limits,
 };
 use std::{
     collections::BTreeMap,
@@ -221,7 +220,7 @@ impl Tally {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sweep::{Plan, RowAnswer, RowStatus, Sweep};
+    use crate::{Plan, RowAnswer, RowStatus, Sweep};
     use serde_json::json;
 
     fn header() -> Header {

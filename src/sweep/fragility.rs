@@ -6,7 +6,7 @@ use super::{
     influence::{groups, same},
     records,
 };
-use crate::analysis::Question;
+use analysis::Question;
 use serde::Serialize;
 
 /// A share of a sample, with its Wilson interval.

@@ -2,7 +2,7 @@
 //! one number explains by itself, whatever the form of the dependence (Pearson 1905; for
 //! independent numbers the first-order index of Sobol' 1993).
 
-use crate::tolerance;
+use base::tolerance;
 use serde::Serialize;
 
 /// How much of the answer one number explains.

@@ -5,7 +5,8 @@ use super::{
     file::{add, contents},
     sum::Seal,
 };
-use crate::{error::RowsError, keep::line};
+use crate::keep::line;
+use base::error::RowsError;
 use std::{collections::BTreeMap, path::Path};
 
 /// Rows of several files.

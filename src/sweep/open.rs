@@ -8,13 +8,15 @@ use super::{
     records,
     sampling::{SOBOL, Sampler},
 };
-use crate::{
-    analysis::{Question, reuse::Keys},
-    assembly::{self, Wrench},
+use analysis::{Question, reuse::Keys};
+use base::{
     error::{Finding, InputError, JsonPath},
-    import::{Reach, read_meshes},
     limits,
-    scene::{self, Kind, Scene, Shape, Source},
+};
+use model::assembly::{self, Wrench};
+use scene::{
+    Kind, Scene, Shape, Source,
+    import::{Reach, read_meshes},
 };
 use serde_json::Value;
 use std::path::Path;
@@ -76,7 +78,7 @@ pub fn open_bytes(
     reach: Reach,
 ) -> Result<Sweep, InputError> {
     let (mut plan, source) = read_plan(name, bytes)?;
-    let refuse = |e: InputError| e.located(&source);
+    let refuse = |e: InputError| source.located(e);
     records::read(&mut plan, folder).map_err(refuse)?;
     let key = JsonPath::root().key("scene");
     let path = folder.join(&plan.scene);
@@ -90,7 +92,7 @@ pub fn open_bytes(
         ..InputError::at(JsonPath::root(), e.to_string())
     })?;
     let findings = read_meshes(&mut scene, path.parent().unwrap_or(Path::new("")), reach)
-        .map_err(|e| e.located(&scene_source))?;
+        .map_err(|e| scene_source.located(e))?;
     for (block, written) in scene
         .blocks
         .iter()

@@ -1,7 +1,9 @@
 //! What a plan file says, and nothing more (`"format": "voussoir-sweep/1"`).
 //! [`open`](super::open()) checks it.
 
-use crate::{analysis::Question, ground::Series, number::short};
+use analysis::Question;
+use base::number::short;
+use check::ground::Series;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Number, Value};

@@ -1,10 +1,8 @@
 //! JSON pointers (RFC 6901) into a scene: finding the number, changing it, and what depends on it.
 
 use super::Parameter;
-use crate::{
-    error::{InputError, JsonPath},
-    scene::suggest,
-};
+use base::error::{InputError, JsonPath};
+use scene::suggest;
 use serde_json::{Map, Value};
 
 /// A pointer that is known to lead to a number or a word of a scene.

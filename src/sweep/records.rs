@@ -1,11 +1,9 @@
 //! Records of ground motion that a plan names: read once, when it is opened.
 
 use super::{Parameter, Plan};
-use crate::{
-    analysis::Question,
-    error::{InputError, JsonPath},
-    ground::{Given, Record, Recorded, Series},
-};
+use analysis::Question;
+use base::error::{InputError, JsonPath};
+use check::ground::{Given, Record, Recorded, Series};
 use std::{fs, path::Path};
 
 /// Where questions name their record.

@@ -1,24 +1,25 @@
 //! The file of rows (`"format": "voussoir-rows/1"`): a header, then one row a line.
 
 use super::{Parameter, Plan, Shard, Sweep};
-use crate::{
-    analysis::{
-        Answer, Assessment, Critical, LoadFactor, Outcome, Proved, Rocking, Stages, Tilt,
-        coulomb::{DryLoadFactor, Found},
-        critical::{Method, Scanned},
-        follow::{
-            End,
-            answer::{Followed, PointProof},
-        },
-        state::Stated,
-        thrust::ThrustEnd,
+use analysis::{
+    Answer, Assessment, Critical, LoadFactor, Outcome, Proved, Rocking, Stages, Tilt,
+    coulomb::{DryLoadFactor, Found},
+    critical::{Method, Scanned},
+    follow::{
+        End,
+        answer::{Followed, PointProof},
     },
-    dynamics::{Fate, ShakenFate},
+    saved,
+    state::Stated,
+    thrust::ThrustEnd,
+};
+use check::{
     proof::critical::FlipResult,
     rocking,
     verdict::{Rate, Verdict},
     yielding::PathEnd,
 };
+use dynamics::{Fate, ShakenFate};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -400,7 +401,7 @@ impl RowAnswer {
     /// The first flip of the range, where its value is proved as a result has it; without any flip
     /// the verdict throughout, where all values that were asked have it.
     fn of_flips(c: &Critical) -> Self {
-        let flips: Vec<FlipResult> = c.changes.iter().map(FlipResult::of).collect();
+        let flips: Vec<FlipResult> = c.changes.iter().map(saved::flip).collect();
         let value = flips.first().filter(|f| f.method != Method::Scan || c.whole);
         if let Some(flip) = value.and_then(FlipResult::proved) {
             return Self {

@@ -1,12 +1,10 @@
 //! Rows → answers, on as many threads as wanted, each written as it ends.
 
 use super::{Folder, Header, Opened, Row, RowAnswer, RowStatus, RowsFile, Shard, Sweep};
-use crate::{
-    analysis::{Control, ask_among, reuse::Reuse},
-    deadline::Deadline,
-    error::RowsError,
-    parallel,
-};
+use analysis::{Control, ask_among, reuse::Reuse};
+use base::error::RowsError;
+use cholesky::parallel;
+use solve::deadline::Deadline;
 use std::{
     collections::HashSet,
     panic::{AssertUnwindSafe, catch_unwind},
@@ -186,7 +184,7 @@ fn answers(
 pub(super) fn answer(sweep: &Sweep, reuse: &Reuse, number: usize, deadline: Deadline) -> Row {
     let start = Instant::now();
     let parameters = sweep.parameters(number);
-    let asked = || -> Result<RowAnswer, crate::error::InputError> {
+    let asked = || -> Result<RowAnswer, base::error::InputError> {
         let scene = sweep.scene_with(&parameters)?;
         let keys = sweep.keys(&parameters);
         let model = reuse.prepare(&scene, &keys, &|| deadline.is_over())?;

@@ -131,7 +131,7 @@ fn permutation(n: usize, stream: &mut Pcg64) -> Vec<u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sweep::Vary;
+    use crate::Vary;
 
     fn unit_square(sampling: &Sampling, seed: u64, rows: usize) -> Vec<Vec<f64>> {
         let axis = || {

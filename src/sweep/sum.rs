@@ -2,7 +2,7 @@
 //! are there against mistakes (an editor, a merge by hand, a worn disk), not against forgery: who
 //! wants to can compute them anew.
 
-use crate::{error::RowsError, plain};
+use base::{error::RowsError, plain};
 use fnv::FnvHasher;
 use serde::Serialize;
 use std::{hash::Hasher, io};

@@ -6,7 +6,7 @@ use super::{
     influence::influence,
     wilson,
 };
-use crate::tolerance;
+use base::tolerance;
 use serde::Serialize;
 use std::collections::BTreeMap;
 

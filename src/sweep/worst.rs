@@ -15,12 +15,10 @@
 //! corners alone.
 
 use super::{RowAnswer, RowStatus, pointer::Pointer};
-use crate::{
-    analysis::{Control, Law, Question, ask},
-    error::{InputError, JsonPath},
-    interface::prepare,
-    scene::{Friction, Load, Scene},
-};
+use analysis::{Control, Law, Question, ask};
+use base::error::{InputError, JsonPath};
+use model::interface::prepare;
+use scene::{Friction, Load, Scene};
 use std::{fmt, str::FromStr};
 
 /// A number that lies between two ends.
@@ -178,7 +176,7 @@ fn numbers(scene: &Scene, range: &Between) -> Result<Vec<Ends>, InputError> {
     {
         let error = refuse(range, &format!("no material is called {material:?}"));
         return Err(InputError {
-            hint: crate::scene::suggest(material, scene.materials.keys().map(String::as_str)),
+            hint: scene::suggest(material, scene.materials.keys().map(String::as_str)),
             ..error
         });
     }

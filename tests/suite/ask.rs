@@ -10,7 +10,7 @@ use voussoir::{
     },
     import::{Reach, read_meshes},
     interface::{Model, prepare},
-    proof::{self, ResultFile},
+    proof::{self, ResultFile, saved},
     report,
     scene::{Scene, read_file, read_str},
     verdict::Verdict,
@@ -121,7 +121,7 @@ pub fn prove(scene: &Scene, file: &ResultFile) {
 pub fn asked(scene: &Scene, question: &Question) -> ResultFile {
     let model = model(scene);
     let answer = voussoir::analysis::ask(question, scene, &model, &Control::default());
-    let file = ResultFile::of(scene, &model, &answer.expect("an answer")).expect("a result");
+    let file = saved::of(scene, &model, &answer.expect("an answer")).expect("a result");
     prove(scene, &file);
     file
 }
@@ -138,7 +138,7 @@ pub fn verdict(scene: &Scene, law: Law) -> Verdict {
         scene.name,
         answer.unbalance
     );
-    prove(scene, &ResultFile::assessment(scene, &model, &answer));
+    prove(scene, &saved::assessment(scene, &model, &answer));
     answer.verdict
 }
 
@@ -151,7 +151,7 @@ pub fn stands(scene: &Scene) -> bool {
 fn answer(scene: &Scene) -> Proved<LoadFactor> {
     let model = model(scene);
     let limited = Limited { bound: limit(&model, &Control::default()), dry: None, dead: None };
-    prove(scene, &ResultFile::load_factor(scene, &model, &limited));
+    prove(scene, &saved::load_factor(scene, &model, &limited));
     limited.bound
 }
 
@@ -174,7 +174,7 @@ pub fn moving(scene: &Scene) -> f64 {
     let model = model(scene);
     let answer =
         voussoir::analysis::ask(&Question::Moving(options), scene, &model, &Control::default());
-    let file = ResultFile::of(scene, &model, &answer.expect("an answer")).expect("a result");
+    let file = saved::of(scene, &model, &answer.expect("an answer")).expect("a result");
     prove(scene, &file);
     file.answer.load_factor().and_then(|l| l.value).expect("a load factor")
 }
@@ -209,7 +209,7 @@ pub fn tilt_deg(scene: &Scene, toward: [f64; 3]) -> f64 {
     let answer = tilt(&model, toward.into(), &Control::default()).expect("a tilt");
     let angle = answer.angle_deg().expect("an angle");
     let tilted = Tilted { directions: vec![answer], level: None };
-    prove(scene, &ResultFile::tilt(scene, &model, &tilted).expect("a direction"));
+    prove(scene, &saved::tilt(scene, &model, &tilted).expect("a direction"));
     angle
 }
 
@@ -220,7 +220,7 @@ pub fn dry(scene: &Scene) -> (f64, Option<f64>, usize) {
     let l = limit(&model, &Control::default());
     let d = coulomb::load_factor(&model, &l, &Control::default());
     let limited = Limited { bound: l.clone(), dry: Some(d.clone()), dead: None };
-    let file = ResultFile::load_factor(scene, &model, &limited);
+    let file = saved::load_factor(scene, &model, &limited);
     prove(scene, &file);
     assert_eq!(
         file.dry.and_then(|d| d.value),

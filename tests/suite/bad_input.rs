@@ -11,7 +11,7 @@ use voussoir::{
     analysis::{Control, assess},
     error::FindingCode,
     interface::prepare,
-    proof::{self, ResultFile},
+    proof::{self, saved},
     report,
     scene::{Scene, read_bytes, read_str},
     verdict::Verdict,
@@ -181,7 +181,7 @@ fn answered(scene: &Scene) {
         &m,
         &Control { deadline: voussoir::deadline::Deadline::within(10.0), ..Control::default() },
     );
-    let text = report::json::pretty(&ResultFile::assessment(scene, &m, &a)).unwrap();
+    let text = report::json::pretty(&saved::assessment(scene, &m, &a)).unwrap();
     let file =
         proof::read::read_str("result", text.as_str()).unwrap_or_else(|e| panic!("{e}\n{scene:?}"));
     if file.answer.verdict() != Some(Verdict::Undecided) {

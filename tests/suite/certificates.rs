@@ -14,7 +14,7 @@ use voussoir::{
     solve::{self, Settings},
     verdict::{
         Evidence, Forces, Rate, Verdict, certificate,
-        check::{Claim, verify},
+        claim::{Claim, verify},
         no_forces,
     },
 };

@@ -8,12 +8,12 @@ use voussoir::{
     analysis::{Control, Law, Limited, Outcome, assess, coulomb, limit},
     import::{self, ImportOptions, Up},
     interface::prepare,
-    proof::ResultFile,
+    proof::saved,
     scene::{Friction, Scene, read_str},
     tolerance,
     verdict::{
         Evidence, Verdict,
-        check::{Claim, verify},
+        claim::{Claim, verify},
     },
 };
 
@@ -126,11 +126,7 @@ fn a_sphere_between_two_walls_needs_a_squeeze() {
 /// there).
 #[test]
 fn samples_of_coupled_rigid_block_analysis() {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/compas/");
-    if !std::path::Path::new(folder).exists() {
-        println!("skipped: no ../shared/data/compas");
-        return;
-    }
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/cases/compas/");
     let cases: [(&str, &[&str], f64, Up, Verdict); 7] = [
         ("cra-H", &["0", "1"], 0.84, Up::Z, Verdict::Conditional),
         ("cra-shelf", &["0"], 0.9, Up::Z, Verdict::Conditional),
@@ -275,7 +271,7 @@ proptest! {
         let d = coulomb::load_factor(&model, &l, &Control::default());
         // About one in a hundred of these does not settle to 1e-6: then there is no number.
         prop_assert!(d.found != coulomb::Found::Undecided || d.value.is_none());
-        ask::prove(&scene, &ResultFile::load_factor(&scene, &model, &Limited { dry: Some(d.clone()), ..l.clone().into() }));
+        ask::prove(&scene, &saved::load_factor(&scene, &model, &Limited { dry: Some(d.clone()), ..l.clone().into() }));
         prop_assert!(d.value.is_none_or(|v| v <= l.bracket.upper + 1e-6 * l.bracket.upper.abs()), "{:?} above {}", d.value, l.bracket.upper);
     }
 }

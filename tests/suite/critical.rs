@@ -8,7 +8,7 @@ use voussoir::{
         Control, Critical, Law, critical,
         critical::{Method, Range},
     },
-    proof::{Answer, ResultFile, critical::CriticalValue},
+    proof::{Answer, ResultFile, critical::CriticalValue, saved},
     scene::Scene,
     verdict::Verdict,
 };
@@ -22,7 +22,7 @@ fn ask(scene: &Scene, pointer: &str, from: f64, to: f64, scan: usize) -> (Critic
     let control = Control { law: Law::Associative, ..Control::default() };
     let range = Range { pointer: pointer.into(), from, to, scan: Some(scan) };
     let answer = critical(scene, &range, &control).unwrap_or_else(|e| panic!("{e}"));
-    let file = ResultFile::critical(scene, &model(scene), &answer);
+    let file = saved::critical(scene, &model(scene), &answer);
     prove(scene, &file);
     (answer, file)
 }
@@ -53,14 +53,9 @@ fn arch(friction: f64, parameters: Value) -> Scene {
     template(friction, json!({ "arch": arch }), json!({}))
 }
 
-/// The value of a case as the reference file has it, where it is present.
+/// The value of a case is the one that the reference file has.
 fn reference(case: &str, value: f64) {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/cases/masonry_cases.json");
-    let Ok(text) = std::fs::read_to_string(path) else {
-        println!("{case}: ../shared/cases is absent, only the value transcribed here is compared");
-        return;
-    };
-    let file: Value = serde_json::from_str(&text).unwrap();
+    let file = crate::reference::cases();
     let expected =
         &file["cases"].as_array().unwrap().iter().find(|c| c["id"] == case).unwrap()["expected"];
     let there = ["critical", "value", "min"].iter().find_map(|k| expected[*k].as_f64()).unwrap();
@@ -262,7 +257,7 @@ fn counts_are_counted() {
         Range { pointer: "/templates/0/arch/voussoirs".into(), from: 7.0, to: 12.0, scan: None };
     let answer = critical(&scene, &range, &control).unwrap();
     assert!(answer.whole && answer.scan.len() == 6);
-    let file = ResultFile::critical(&scene, &model(&scene), &answer);
+    let file = saved::critical(&scene, &model(&scene), &answer);
     prove(&scene, &file);
     let found = file.answer.critical().unwrap();
     assert_eq!((found[0].lower, found[0].upper), (7.0, 8.0), "{found:?}");

@@ -22,7 +22,7 @@ use voussoir::{
     sweep::{RowAnswer, RowStatus},
     verdict::{
         Evidence, Verdict,
-        check::{self, Claim},
+        claim::{self, Claim},
     },
 };
 
@@ -363,7 +363,7 @@ fn what_rests_little_below_the_bound_has_the_safe_end_for_a_value() {
     let value = dry.value.unwrap();
     assert!(dry.found == Found::RestsBelow && dry.value == dry.rests_at, "{dry:?}");
     assert!(value <= limited.bound.bracket.lower && value >= 0.99 * bound, "{dry:?}");
-    let honest = proof::ResultFile::load_factor(&scene, &model, &limited);
+    let honest = proof::saved::load_factor(&scene, &model, &limited);
     ask::prove(&scene, &honest);
     for factor in [0.5, 1.1] {
         let mut forged = honest.clone();
@@ -645,6 +645,6 @@ fn scenes_that_were_left_open_have_an_answer() {
     let falls = assess(&model, &Control::default());
     assert_eq!(falls.verdict, Verdict::Unstable);
     let evidence = Evidence::new(&falls.forces, &falls.rates);
-    assert!(check::verify(&model, &Claim::Unstable, evidence).proved());
-    assert!(!check::verify(&model, &Claim::Impossible, evidence).proved());
+    assert!(claim::verify(&model, &Claim::Unstable, evidence).proved());
+    assert!(!claim::verify(&model, &Claim::Impossible, evidence).proved());
 }

@@ -8,7 +8,9 @@ use std::path::PathBuf;
 use voussoir::{
     analysis::{Control, Limited, LoadFactor, Outcome, Proved, assess, coulomb, limit},
     interface::prepare,
-    proof::{ResultFile, answer::LoadFactorAnswer, certificate::DryResult, read::read_str, verify},
+    proof::{
+        ResultFile, answer::LoadFactorAnswer, certificate::DryResult, read::read_str, saved, verify,
+    },
     scene::Scene,
     terms::Bound,
     verdict::Verdict,
@@ -27,7 +29,7 @@ fn scene(name: &str) -> Scene {
 fn verdict(name: &str) -> Verdict {
     let scene = scene(name);
     let model = prepare(&scene).unwrap();
-    let file = ResultFile::assessment(&scene, &model, &assess(&model, &Control::default()));
+    let file = saved::assessment(&scene, &model, &assess(&model, &Control::default()));
     let said = file.answer.verdict().unwrap();
     assert!(said == Verdict::Undecided || verify(&file, &scene).unwrap().proved(), "{name}");
     println!("{name}: {said:?}");
@@ -41,7 +43,7 @@ fn limits(name: &str) -> (Proved<LoadFactor>, ResultFile) {
     let bound = limit(&model, &Control::default());
     let has_dry = matches!(bound.outcome, Outcome::Found | Outcome::Unbounded);
     let dry = has_dry.then(|| coulomb::load_factor(&model, &bound, &Control::default()));
-    let file = ResultFile::load_factor(&scene, &model, &Limited { dry, ..bound.clone().into() });
+    let file = saved::load_factor(&scene, &model, &Limited { dry, ..bound.clone().into() });
     println!(
         "{name}: {:?} {:?} in {:?}, dry {:?}",
         bound.outcome,
@@ -75,10 +77,8 @@ fn a_couple_is_measured_as_a_couple() {
 
 #[test]
 fn forged_results_of_the_findings_are_refused() {
-    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared/cases/findings/forged");
-    let Ok(list) = std::fs::read_dir(&folder) else {
-        return println!("skipped: no ../shared/cases/findings/forged");
-    };
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/cases/findings/forged");
+    let list = std::fs::read_dir(&folder).unwrap();
     let forged = list
         .map(|f| f.unwrap().path())
         .filter(|p| p.file_name().is_some_and(|n| n.to_string_lossy().starts_with('F')));

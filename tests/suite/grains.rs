@@ -12,7 +12,7 @@ use voussoir::{
     },
     error::FindingCode,
     generate::deposit,
-    proof::{ResultFile, packing::PackingFile},
+    proof::{packing::PackingFile, saved},
     report::json as text,
     scene::{
         BlockSpec, FloorKind, GrainKind, Protocol, ProtocolKind, Scene, Shape, Sizes, read_str,
@@ -39,7 +39,7 @@ fn falls_at(scene: &Scene, toward: [f64; 3]) -> (f64, usize) {
     let angle = round.tilt.angle_deg().expect("an angle");
     let rest = without(scene, &round.gone).expect("a scene");
     let tilted = Tilted { directions: vec![round.tilt], level: None };
-    prove(&rest, &ResultFile::tilt(&rest, &model, &tilted).expect("a direction"));
+    prove(&rest, &saved::tilt(&rest, &model, &tilted).expect("a direction"));
     (angle, model.assembly.free().count())
 }
 
@@ -264,13 +264,10 @@ fn loose_grains_are_taken_away_until_enough_moves() {
     assert_eq!(last.gone, ["ball"], "what fell is gone");
     assert!(last.tilt.model.assembly.find("ball").is_none());
     // As a result, with the grains that fell and a proof of the last round.
-    let (file, proof) = PackingFile::new(
-        &scene,
-        0.5,
-        &Packing { model, loose: Vec::new(), directions: vec![half] },
-    )
-    .unwrap()
-    .unwrap();
+    let (file, proof) =
+        saved::packing(&scene, 0.5, &Packing { model, loose: Vec::new(), directions: vec![half] })
+            .unwrap()
+            .unwrap();
     assert_eq!(file.directions[0].removed[0].grains, ["ball"]);
     assert_eq!(file.directions[0].status, Outcome::Found);
     prove(&proof.scene.input, &proof);

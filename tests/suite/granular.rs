@@ -1,4 +1,4 @@
-//! Every case of `../shared/cases/granular_cases.json`, asked as the file words it and proved,
+//! Every case of `tests/cases/granular_cases.json`, asked as the file words it and proved,
 //! against the file's own numbers. Skipped, saying so, where that folder is absent; the same cases
 //! with more digits and more variants are in `analytic` and `strength`.
 
@@ -222,10 +222,8 @@ fn ask(id: &str, key: &str, want: &Value, tolerance: f64) {
 
 #[test]
 fn every_granular_case_comes_out_as_its_file_says() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/cases/granular_cases.json");
-    let Ok(text) = std::fs::read_to_string(&path) else {
-        return println!("skipped: {} is absent", path.display());
-    };
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases/granular_cases.json");
+    let text = std::fs::read_to_string(&path).expect("the cases");
     let file: Value = serde_json::from_str(&text).expect("JSON");
     let cases = file["cases"].as_array().expect("cases");
     for case in cases {

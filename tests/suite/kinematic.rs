@@ -9,7 +9,7 @@ use voussoir::{
     kinematic::Unique,
     proof::{
         self, Answer, ResultFile, answer::FactorStatus, kinematic::KinematicAnswer,
-        path::PathStatus,
+        path::PathStatus, saved,
     },
     scene::Scene,
 };
@@ -29,7 +29,7 @@ fn file_of(scene: &Scene, options: KinematicOptions) -> ResultFile {
     let model = model(scene);
     let question = Question::Kinematic(options);
     let answer = ask(&question, scene, &model, &Control::default()).expect("an answer");
-    ResultFile::of(scene, &model, &answer).expect("a result")
+    saved::of(scene, &model, &answer).expect("a result")
 }
 
 /// Asks, and proves the result from the scene alone.
@@ -222,7 +222,7 @@ fn the_curve_is_that_of_push() {
         from: Vec::new(),
     });
     let answer = ask(&question, &scene, &model, &Control::default()).expect("an answer");
-    let pushed = ResultFile::of(&scene, &model, &answer).expect("a result").path.expect("a curve");
+    let pushed = saved::of(&scene, &model, &answer).expect("a result").path.expect("a curve");
     assert!(pushed.events.len() == kinematic.events.len() && !pushed.events.is_empty());
     let mut compared = 0;
     for p in &kinematic.points {
@@ -329,7 +329,7 @@ fn a_site_changes_no_other_answer() {
             let scene = read(v);
             let model = model(&scene);
             let answer = ask(&question, &scene, &model, &Control::default()).expect("an answer");
-            let file = ResultFile::of(&scene, &model, &answer).expect("a result");
+            let file = saved::of(&scene, &model, &answer).expect("a result");
             (file.answer, file.warnings)
         });
         assert_eq!(a, b);

@@ -17,7 +17,7 @@ use voussoir::{
     },
     dynamics::Fate,
     interface,
-    proof::{self, ResultFile, member::MemberState},
+    proof::{self, ResultFile, member::MemberState, saved},
     scene::{Scene, read_str},
     verdict::{Verdict, mechanism::MemberMotion},
 };
@@ -48,7 +48,7 @@ fn range_along(scene: &Scene, member: &str, along: Option<[f64; 3]>) -> [Option<
     let m = model(scene);
     let at = thrust::member(&m, member, along).unwrap();
     let answer = thrust::answer(&m, at, Ends::Both, &associative());
-    let file = ResultFile::thrust(scene, &m, &answer);
+    let file = saved::thrust(scene, &m, &answer);
     prove(scene, &file);
     let t = file.answer.thrust().expect("it stands").clone();
     [t.least, t.greatest].map(|e| {
@@ -116,7 +116,7 @@ fn mechanisms_and_answers_name_the_members() {
     let mechanism = bound.mechanism.as_ref().unwrap();
     assert_eq!(mechanism.members.len(), 1);
     assert_eq!(mechanism.members[0].motion, MemberMotion::Yields);
-    let file = ResultFile::load_factor(&s, &m, &bound.into());
+    let file = saved::load_factor(&s, &m, &bound.into());
     let [line] = &file.members[..] else { panic!("{:?}", file.members) };
     assert_eq!(line.state, MemberState::AtStrength);
     close("force", line.force, 0.02, 1e-6);
@@ -390,7 +390,7 @@ fn survives(scene: &Scene, file: &ResultFile, edit: impl Fn(&mut Value)) -> bool
 fn forged_members_are_refused() {
     let s = tied_arch(0.3, json!(0.1), false);
     let m = model(&s);
-    let file = ResultFile::assessment(&s, &m, &analysis::assess(&m, &Control::default()));
+    let file = saved::assessment(&s, &m, &analysis::assess(&m, &Control::default()));
     assert!(survives(&s, &file, |_| {}));
     let force = "/certificate/members/0/force/0";
     type Edit<'a> = (&'a str, &'a dyn Fn(&mut Value));
@@ -411,7 +411,7 @@ fn forged_members_are_refused() {
     // A mechanism that lengthens a tie as if it were not there, and one that calls it slack.
     let s = tied_arch(0.3, json!(0.013), false);
     let m = model(&s);
-    let file = ResultFile::assessment(&s, &m, &analysis::assess(&m, &Control::default()));
+    let file = saved::assessment(&s, &m, &analysis::assess(&m, &Control::default()));
     assert!(survives(&s, &file, |_| {}));
     let mut strong = s.clone();
     strong.members[0].tie.as_mut().unwrap().strength = voussoir::scene::member::Strength::Infinite;
@@ -421,7 +421,7 @@ fn forged_members_are_refused() {
     let s = tied_arch(0.3, json!("infinite"), false);
     let m = model(&s);
     let at = thrust::member(&m, "tie", None).unwrap();
-    let file = ResultFile::thrust(&s, &m, &thrust::answer(&m, at, Ends::Both, &associative()));
+    let file = saved::thrust(&s, &m, &thrust::answer(&m, at, Ends::Both, &associative()));
     assert!(survives(&s, &file, |_| {}));
     for end in ["least", "greatest"] {
         let forged = |v: &mut Value| {
@@ -512,7 +512,7 @@ fn a_dowels_direction_is_in_its_joint() {
     let answer =
         thrust::answer(&m, thrust::member(&m, "d", along).unwrap(), Ends::Both, &associative());
     let s = doweled(json!(0.1), [0.35, 0.0]);
-    let file = ResultFile::thrust(&s, &m, &answer);
+    let file = saved::thrust(&s, &m, &answer);
     assert!(survives(&s, &file, |_| {}));
     assert!(!survives(&s, &file, |v| v["answer"]["thrust"]["direction"] = json!([-1, 0, 0])));
     assert!(!survives(&s, &file, |v| {
@@ -690,7 +690,7 @@ fn a_simulation_says_that_it_has_no_grips() {
 fn scenes_without_members_say_nothing_of_them() {
     let s = cube(0.5, json!([]));
     let m = model(&s);
-    let file = ResultFile::assessment(&s, &m, &analysis::assess(&m, &Control::default()));
+    let file = saved::assessment(&s, &m, &analysis::assess(&m, &Control::default()));
     assert!(!serde_json::to_string(&file).unwrap().contains("members"));
 }
 

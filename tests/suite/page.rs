@@ -8,7 +8,7 @@ use voussoir::{
     analysis::{Control, Limited, assess, limit},
     dynamics::{Fidelity, Frame, Pose},
     interface::prepare,
-    proof::ResultFile,
+    proof::saved,
     report::{
         page,
         text::{Asked, Layout, TextOptions, render},
@@ -200,7 +200,7 @@ fn a_picture_does_not_depend_on_units() {
     let view = |scene: &Scene| -> Value {
         let model = prepare(scene).unwrap();
         let answer = assess(&model, &Control::default());
-        let file = ResultFile::assessment(scene, &model, &answer);
+        let file = saved::assessment(scene, &model, &answer);
         let view = View::new(&model, &file, Vec::new()).unwrap();
         let text = render(
             &file,
@@ -260,7 +260,7 @@ fn a_page_of_5000_blocks_stays_below_10_mb() {
         Control { deadline: voussoir::deadline::Deadline::within(0.0), ..Control::default() };
     let bound = limit(&model, &control);
     let dead = Some(assess(&model, &control));
-    let mut file = ResultFile::load_factor(&scene, &model, &Limited { dead, ..bound.into() });
+    let mut file = saved::load_factor(&scene, &model, &Limited { dead, ..bound.into() });
     for (face, contact) in model.interfaces.list.iter().zip(&mut file.certificate.forces) {
         contact.forces.iter_mut().for_each(|f| *f = face.frame.n.into());
     }

@@ -8,7 +8,7 @@ use voussoir::{
     interface::{self, Model},
     scene::{self, Scene},
     verdict::{
-        Evidence, Rate, Verdict, check,
+        Evidence, Rate, Verdict, claim,
         thrust::{Extreme, ThrustAt},
     },
 };
@@ -238,7 +238,7 @@ fn a_stranger_without_an_exact_proof_takes_none_away() {
             let got = analysis::assess(&m, &control());
             assert_eq!(got.verdict, Verdict::Stable);
             let proof =
-                check::verify(&m, &check::Claim::Stable, Evidence::new(&got.forces, &got.rates));
+                claim::verify(&m, &claim::Claim::Stable, Evidence::new(&got.forces, &got.rates));
             assert!(proof.proved(), "{:?}", proof.fails);
         }
     }
@@ -256,9 +256,9 @@ fn a_heavy_stranger_keeps_no_proof_from_several_parts_that_fall() {
         for (m, ..) in both(&a, &heavier(column(1, 0.0, 100.0, ""), by)) {
             let got = analysis::limit(&m, &control);
             assert_eq!(got.outcome, Outcome::Impossible, "{by}");
-            let proof = check::verify(
+            let proof = claim::verify(
                 &m,
-                &check::Claim::Impossible,
+                &claim::Claim::Impossible,
                 Evidence::new(&got.forces, &got.rates),
             );
             assert!(proof.proved(), "{by}: {:?}", proof.fails);
@@ -269,7 +269,7 @@ fn a_heavy_stranger_keeps_no_proof_from_several_parts_that_fall() {
                 .unwrap();
             rates[still].velocity = Vector3::new(0.0, 0.0, -1.0);
             assert!(
-                !check::verify(&m, &check::Claim::Impossible, Evidence::new(&got.forces, &rates))
+                !claim::verify(&m, &claim::Claim::Impossible, Evidence::new(&got.forces, &rates))
                     .proved(),
                 "{by}"
             );
@@ -506,5 +506,5 @@ fn moments_count_in_the_load_of_a_block() {
     ));
     let a = analysis::assess(&m, &Control { law: Law::Associative, ..control() });
     assert_eq!(a.verdict, Verdict::Stable);
-    assert!(check::verify(&m, &check::Claim::Stable, Evidence::new(&a.forces, &a.rates)).proved());
+    assert!(claim::verify(&m, &claim::Claim::Stable, Evidence::new(&a.forces, &a.rates)).proved());
 }

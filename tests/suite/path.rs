@@ -15,6 +15,7 @@ use voussoir::{
     proof::{
         self, ResultFile,
         path::{DrivenBy, PathEventKind, PathPoint, PathResult, PathStatus},
+        saved,
     },
     scene::Scene,
 };
@@ -25,7 +26,7 @@ fn followed(scene: &Scene, question: &Question) -> ResultFile {
     let model = model(scene);
     let answer = ask(question, scene, &model, &Control::default()).expect("an answer");
     assert!(matches!(answer, Answer::Path(_)));
-    let file = ResultFile::of(scene, &model, &answer).expect("a result");
+    let file = saved::of(scene, &model, &answer).expect("a result");
     prove(scene, &file);
     file
 }
@@ -449,7 +450,7 @@ fn followed_for(scene: &Scene, moves: Vec<SupportMove>, seconds: f64) -> ResultF
     let question = Question::Settle(SettleOptions { moves, at: Vec::new(), ..Default::default() });
     let control = Control { deadline: Deadline::within(seconds), ..Control::default() };
     let answer = ask(&question, scene, &model, &control).expect("an answer");
-    let file = ResultFile::of(scene, &model, &answer).expect("a result");
+    let file = saved::of(scene, &model, &answer).expect("a result");
     let found = proof::verify(&file, scene).expect("a scene");
     let fails: Vec<_> = found.parts.iter().flat_map(|(_, f)| &f.fails).collect();
     assert!(fails.is_empty(), "{fails:#?}");

@@ -10,7 +10,7 @@ use voussoir::{
         path::{PathEventKind, PathPoint, PathResult, PathStatus},
     },
     scene::Scene,
-    verdict::check::Claim,
+    verdict::claim::Claim,
 };
 
 const NO_SLIDING: f64 = f64::INFINITY;

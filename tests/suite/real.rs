@@ -1,5 +1,4 @@
-//! Real assemblies of public projects, read where they lie; skipped, saying so, where
-//! `../shared/data` is absent.
+//! Real assemblies of public projects (`tests/cases/README.md`).
 
 use std::path::{Path, PathBuf};
 use voussoir::{
@@ -11,13 +10,8 @@ use voussoir::{
     verdict::Verdict,
 };
 
-fn folder() -> Option<PathBuf> {
-    let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/compas"));
-    if path.exists() {
-        return Some(path.to_path_buf());
-    }
-    println!("skipped: no ../shared/data/compas");
-    None
+fn folder() -> PathBuf {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/cases/compas")).to_path_buf()
 }
 
 fn options(supports: &[&str], mu: f64) -> ImportOptions {
@@ -57,7 +51,7 @@ fn admissible(m: &Model) -> Verdict {
 /// 0.8094 (density 1; 3.51 on nodes 11–15).
 #[test]
 fn load_factors_of_the_cubes_and_the_bridge() {
-    let Some(folder) = folder() else { return };
+    let folder = folder();
     let cubes = read(folder.join("cra-cubes.json"), &options(&["0"], 0.84));
     for (direction, want) in [([1.0, 0.0, 0.0], 0.3240), ([0.0, 1.0, 0.0], 0.3230)] {
         let got = pushed(&cubes, direction);
@@ -80,7 +74,7 @@ fn load_factors_of_the_cubes_and_the_bridge() {
 /// The cross vault with its stored interfaces (488) and with ours; the wall with its stored 80.
 #[test]
 fn the_cross_vault_and_the_wall_stand() {
-    let Some(folder) = folder() else { return };
+    let folder = folder();
     // The faces of the vault are warped by millimetres: its stored polygons reach over the rims
     // that ours leave out.
     for (name, blocks, stored, agree) in
@@ -149,7 +143,7 @@ fn told(m: &Model, code: FindingCode) -> String {
 /// with them slipped out from between 297 and 304.
 #[test]
 fn warped_joints_of_the_armadillo_vault_are_found_at_any_gap() {
-    let Some(folder) = folder() else { return };
+    let folder = folder();
     let mut scene = armadillo(&folder, 1.0);
     for (gap, min_area) in [(1e-4, 1e-9), (0.01, 1e-9), (0.05, 1e-4)] {
         (scene.contact.gap, scene.contact.min_area) = (gap, min_area);
@@ -177,7 +171,7 @@ fn warped_joints_of_the_armadillo_vault_are_found_at_any_gap() {
 /// Densities are units: the vaults stand under dry friction whatever they are.
 #[test]
 fn vaults_stand_under_dry_friction_at_any_density() {
-    let Some(folder) = folder() else { return };
+    let folder = folder();
     let vault = |density: f64| {
         read(
             folder.join("assembly-crossvault.json"),
@@ -221,7 +215,7 @@ fn remedy(text: &str, key: &str) -> Option<f64> {
 /// followed to the letter.
 #[test]
 fn remedies_for_vaults_with_open_joints_make_them_stand() {
-    let Some(folder) = folder() else { return };
+    let folder = folder();
     let own = ImportOptions { stored_interfaces: false, ..options(&[], 0.7) };
     let pavilion = folder.join("dem-pavillionvault");
     let held = ImportOptions { support_files: vec![pavilion.join("supports.json")], ..own.clone() };
@@ -262,7 +256,7 @@ fn remedies_for_vaults_with_open_joints_make_them_stand() {
 /// Frame and shelves have admissible forces.
 #[test]
 fn frames_and_shelves_are_statically_admissible() {
-    let Some(folder) = folder() else { return };
+    let folder = folder();
     for (name, supports, mu) in [
         ("cra-H", &["0", "1"][..], 0.84),
         ("cra-shelf", &["0"], 0.9),
@@ -278,7 +272,7 @@ fn frames_and_shelves_are_statically_admissible() {
 /// answer is certified.
 #[test]
 fn rounded_meshes_are_read_and_their_gaps_told() {
-    let Some(folder) = folder() else { return };
+    let folder = folder();
     let wall = read(
         folder.join("dem-wall.obj"),
         &ImportOptions { support_below: Some(0.018), ..options(&[], 0.7) },

@@ -1,4 +1,4 @@
-//! Every reference case of `../shared/cases/masonry_cases.json` that asks for an associative answer
+//! Every reference case of `tests/cases/masonry_cases.json` that asks for an associative answer
 //! or a verdict. Skipped, saying so, where that folder is absent; the transcribed cases in
 //! `published.rs` always run.
 
@@ -10,7 +10,7 @@ use voussoir::{
     },
     interface::{Model, prepare},
     scene::{Scene, read_str},
-    verdict::{Verdict, check::Findings, exact::Grade, thrust::ThrustAt},
+    verdict::{Verdict, claim::Findings, exact::Grade, thrust::ThrustAt},
 };
 
 /// Friction for "infinite (no sliding)".
@@ -162,14 +162,15 @@ fn close(case: &Value, got: f64, want: f64, failures: &mut Vec<String>) {
     }
 }
 
+/// The file of reference cases.
+pub fn cases() -> Value {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/cases/masonry_cases.json");
+    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
+}
+
 #[test]
 fn masonry_cases() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/cases/masonry_cases.json");
-    let Ok(text) = std::fs::read_to_string(path) else {
-        println!("skipped: no reference cases at ../shared/cases");
-        return;
-    };
-    let file: Value = serde_json::from_str(&text).unwrap();
+    let file = cases();
     let mut failures = Vec::new();
     let mut seen = 0;
     let mut grades = Grades::default();

@@ -12,7 +12,7 @@ use voussoir::{
     },
     dynamics::{Progress, Shaken, ShakenFate, Shaking, SimulationSettings, shake},
     ground::Pulse,
-    proof::{ResultFile, shaken::ShakenWord, verify},
+    proof::{ResultFile, saved, shaken::ShakenWord, verify},
     rocking::{RunSettings, Search, scan},
     scene::Scene,
     sweep::{RowStatus, RunOptions, Sweep, run},
@@ -38,7 +38,7 @@ fn asked(scene: &Scene, question: &Value) -> ResultFile {
     let question: Question = serde_json::from_value(question.clone()).expect("a question");
     let model = model(scene);
     let answer = ask(&question, scene, &model, &Control::default()).expect("an answer");
-    let file = ResultFile::of(scene, &model, &answer).expect("a result");
+    let file = saved::of(scene, &model, &answer).expect("a result");
     // As it is read again.
     serde_json::from_str(&serde_json::to_string(&file).expect("text")).expect("a result")
 }

@@ -7,7 +7,7 @@ use voussoir::{
     analysis::{Answer, Control, Question, StagesOptions, ask, assess},
     assembly,
     interface::{self, Model, prepare},
-    proof::{self, ResultFile, answer::FactorStatus, stages::StageResult},
+    proof::{self, ResultFile, answer::FactorStatus, saved, stages::StageResult},
     scene::{Scene, read_str},
     sweep::{RowAnswer, RowStatus},
     verdict::Verdict,
@@ -27,8 +27,7 @@ pub fn result(scene: &Scene, options: StagesOptions) -> ResultFile {
     let question = Question::Stages(options);
     let answer = ask(&question, scene, &model, &Control::default()).unwrap();
     assert!(matches!(answer, Answer::Stages(_)));
-    let file =
-        ResultFile::of_question(&question, scene, &model, &answer, &Control::default()).unwrap();
+    let file = saved::of_question(&question, scene, &model, &answer, &Control::default()).unwrap();
     prove(scene, &file);
     file
 }
@@ -149,7 +148,7 @@ fn a_barrel_falls_where_its_centring_is_struck_too_early() {
     let stages = assembly::stages(&scene, &whole.assembly).unwrap();
     for (stage, said) in stages.iter().zip(list(&file)) {
         let model = interface::at_stage(&scene, &whole, stage).unwrap();
-        let own = ResultFile::assessment(&scene, &model, &assess(&model, &Control::default()));
+        let own = saved::assessment(&scene, &model, &assess(&model, &Control::default()));
         assert_eq!(own.certificate.forces, said.verdict.certificate.forces, "{}", stage.name);
         assert_eq!(own.answer, said.verdict.answer);
     }

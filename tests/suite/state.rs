@@ -8,7 +8,7 @@ use voussoir::{
     analysis::{Answer, Control, ControlPoint, Question, StateOptions, ask, assess, coulomb},
     interface::prepare,
     proof::{
-        self, ResultFile,
+        self, ResultFile, saved,
         state::{Displacement, StateAnswer},
     },
     report::{drawing, view::View},
@@ -28,8 +28,7 @@ fn result(scene: &Scene, options: StateOptions) -> ResultFile {
     let question = Question::State(options);
     let answer = ask(&question, scene, &model, &Control::default()).unwrap();
     assert!(matches!(answer, Answer::State(_)));
-    let file =
-        ResultFile::of_question(&question, scene, &model, &answer, &Control::default()).unwrap();
+    let file = saved::of_question(&question, scene, &model, &answer, &Control::default()).unwrap();
     prove(scene, &file);
     file
 }

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use voussoir::{
     analysis::{Control, Question, StateOptions, ask},
     interface::prepare,
-    proof::{self, ResultFile, member::MemberState, state::StateAnswer},
+    proof::{self, ResultFile, member::MemberState, saved, state::StateAnswer},
     scene::{Scene, read_str},
     yielding::EventKind,
 };
@@ -20,8 +20,7 @@ fn result(value: &Value, options: StateOptions) -> ResultFile {
     let model = prepare(&scene).unwrap();
     let question = Question::State(options);
     let answer = ask(&question, &scene, &model, &Control::default()).unwrap();
-    let file =
-        ResultFile::of_question(&question, &scene, &model, &answer, &Control::default()).unwrap();
+    let file = saved::of_question(&question, &scene, &model, &answer, &Control::default()).unwrap();
     prove(&scene, &file);
     file
 }

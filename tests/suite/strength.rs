@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use serde_json::{Value, json};
 use voussoir::{
     analysis::{Control, Law, Outcome, Question, TiltOptions, ask, limit},
-    proof::ResultFile,
+    proof::saved,
     scene::Scene,
     verdict::Verdict,
 };
@@ -199,7 +199,7 @@ fn a_tilt_at_which_strong_joints_hinge_is_proved_with_dry_friction() {
         let m = model(&s);
         let toward = TiltOptions { toward: vec![[1.0, 0.0, 0.0]], ..TiltOptions::default() };
         let answer = ask(&Question::Tilt(toward), &s, &m, &Control::default()).unwrap();
-        prove(&s, &ResultFile::of(&s, &m, &answer).unwrap());
+        prove(&s, &saved::of(&s, &m, &answer).unwrap());
     }
 }
 
@@ -266,7 +266,7 @@ fn weaker_joints_refute_the_result() {
         )
     };
     let (scene, model) = (arch(8.0), model(&arch(8.0)));
-    let file = ResultFile::load_factor(&scene, &model, &limit(&model, &Control::default()).into());
+    let file = saved::load_factor(&scene, &model, &limit(&model, &Control::default()).into());
     for other in [
         block(
             5.0,

@@ -8,7 +8,7 @@ use voussoir::{
         Control, Law, Outcome,
         thrust::{Ends, answer, first_support, outwards},
     },
-    proof::{Answer, ResultFile, thrust::ThrustAnswer},
+    proof::{Answer, ResultFile, saved, thrust::ThrustAnswer},
     report::{drawing, view::View},
     scene::Scene,
     verdict::{Verdict, thrust::ThrustAt},
@@ -32,11 +32,8 @@ fn ask_at(
     let support =
         support.map_or_else(|| first_support(&m), |id| m.assembly.find(id)).expect("a support");
     let direction = direction.unwrap_or_else(|| outwards(&m, support).expect("a direction").into());
-    let file = ResultFile::thrust(
-        scene,
-        &m,
-        &answer(&m, ThrustAt { support, direction }, Ends::Both, control),
-    );
+    let file =
+        saved::thrust(scene, &m, &answer(&m, ThrustAt { support, direction }, Ends::Both, control));
     prove(scene, &file);
     file
 }
@@ -286,7 +283,7 @@ fn drawings_hold_every_block_and_both_lines() {
     let m = model(&s);
     let support = first_support(&m).unwrap();
     let at = ThrustAt { support, direction: outwards(&m, support).unwrap().into() };
-    let file = ResultFile::thrust(&s, &m, &answer(&m, at, Ends::Both, &associative()));
+    let file = saved::thrust(&s, &m, &answer(&m, at, Ends::Both, &associative()));
     let text = drawing::svg(&View::new(&m, &file, Vec::new()).unwrap(), Default::default());
     assert_eq!(text.matches("<g class=\"block\">").count(), 8);
     assert_eq!(text.matches("<g class=\"support\">").count(), 2);

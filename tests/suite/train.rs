@@ -5,7 +5,7 @@ use crate::ask::{close, model, prove};
 use serde_json::{Value, json};
 use voussoir::{
     analysis::{Control, Law, MovingOptions, Question, ask},
-    proof::{self, Answer, ResultFile, answer::FactorStatus, moving::MovingAnswer},
+    proof::{self, Answer, ResultFile, answer::FactorStatus, moving::MovingAnswer, saved},
     report::moving,
     scene::{Scene, read_str},
     train::Travel,
@@ -49,7 +49,7 @@ fn file_of(scene: &Scene) -> ResultFile {
         Question::Moving(MovingOptions { law: Law::Associative, ..MovingOptions::default() });
     let model = model(scene);
     let answer = ask(&question, scene, &model, &Control::default()).expect("an answer");
-    ResultFile::of(scene, &model, &answer).expect("a result")
+    saved::of(scene, &model, &answer).expect("a result")
 }
 
 fn said(file: &ResultFile) -> &MovingAnswer {
@@ -270,7 +270,7 @@ fn dry_file(scene: &Scene, every_value: bool) -> ResultFile {
     let question = Question::Moving(MovingOptions { every_value, ..MovingOptions::default() });
     let model = model(scene);
     let answer = ask(&question, scene, &model, &Control::default()).expect("an answer");
-    ResultFile::of(scene, &model, &answer).expect("a result")
+    saved::of(scene, &model, &answer).expect("a result")
 }
 
 /// With dry friction the worst position has its value, and of every other one it is only known that

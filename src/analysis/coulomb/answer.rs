@@ -1,9 +1,9 @@
 //! A load factor with dry friction as an answer.
 
+use crate::{Deciding, LoadFactor};
 #[cfg(doc)]
-use crate::verdict::law;
-use crate::{
-    analysis::{Deciding, LoadFactor},
+use check::verdict::law;
+use check::{
     terms::{Found, is_reached},
     verdict::{Forces, Rate},
 };

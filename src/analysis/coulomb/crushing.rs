@@ -1,10 +1,9 @@
 //! Joints that crush: what bounds the fixed points of programs C and D follows from the forces that
 //! they end with.
 
-use crate::{
-    interface::Interfaces, program::coulomb::Contacts, solve::coulomb::FixedPoint,
-    verdict::certificate,
-};
+use check::verdict::certificate;
+use model::interface::Interfaces;
+use solve::{coulomb::FixedPoint, program::coulomb::Contacts};
 
 /// Fixed points tried with ever more bounds on crushing. Fewer: states near the strength stay
 /// undecided. More: time lost.

@@ -1,12 +1,10 @@
 //! How far forces and a mechanism are from Coulomb's law.
 
 use super::answer::DryLoadFactor;
-use crate::{
-    analysis::LoadFactor,
-    interface::Model,
-    tolerance,
-    verdict::{Forces, Rate, check, law},
-};
+use crate::LoadFactor;
+use base::tolerance;
+use check::verdict::{Forces, Rate, claim, law};
+use model::interface::Model;
 
 /// The natural map, and the same in the loads that pass the blocks.
 #[derive(Clone, Copy)]
@@ -19,7 +17,7 @@ impl Distance {
     pub fn of(model: &Model, forces: &Forces, rates: &[Rate]) -> Self {
         Self {
             natural_map: law::natural_map(model, forces, rates).unwrap_or(f64::INFINITY),
-            in_loads: check::dry_map(model, forces, rates),
+            in_loads: claim::dry_map(model, forces, rates),
         }
     }
 

@@ -14,22 +14,24 @@ use super::{
     answer::DryLoadFactor, crushing::within_strength, distance::Distance, rest::up_to_rest,
     state::state,
 };
-use crate::{
-    analysis::{Control, LoadFactor, Outcome, attempt::is_large, mend},
+use crate::{Control, LoadFactor, Outcome, attempt::is_large, mend};
+use base::tolerance;
+use check::{
+    terms::{Found, StateMotion},
+    verdict::{Forces, Rate, Verdict, certificate, claim},
+};
+use model::{
     assembly::Wrench,
     interface::{Model, is_forest},
+    strength::laws::unlimited,
+};
+use solve::{
+    EngineSettings, Settings,
+    coulomb::{FixedPoint, Law, Solvers, StoppingCriterion, iterate},
     program::{
         StaticsOptions,
         coulomb::{Contacts, HeldQuantity, Objective},
     },
-    solve::{
-        EngineSettings, Settings,
-        coulomb::{FixedPoint, Law, Solvers, StoppingCriterion, iterate},
-    },
-    strength::laws::unlimited,
-    terms::{Found, StateMotion},
-    tolerance,
-    verdict::{Forces, Rate, Verdict, certificate, check},
 };
 
 /// δ, and the change of the friction limits (mean block loads) at which the next one is taken up.
@@ -54,9 +56,9 @@ const LOST: f64 = 10.0;
 const TOLERANCES: [f64; 2] = [1e-11, 1e-13];
 
 /// The load factor with dry friction of one part, up to which it comes to rest; `associative` is
-/// the answer of [`limit`](crate::analysis::limit()) for the same part, `dead` the verdict under
+/// the answer of [`limit`](crate::limit()) for the same part, `dead` the verdict under
 /// the dead load alone, where it is known.
-pub(in crate::analysis) fn of_part(
+pub(crate) fn of_part(
     model: &Model,
     associative: &LoadFactor,
     dead: Option<Verdict>,
@@ -82,7 +84,7 @@ pub(in crate::analysis) fn of_part(
 
 /// Forces and a mechanism that obey Coulomb's law together at a load factor; nothing is said about
 /// what happens below.
-pub(in crate::analysis) fn complementary(
+pub(crate) fn complementary(
     model: &Model,
     associative: &LoadFactor,
     control: &Control,
@@ -129,7 +131,7 @@ struct Scene<'a> {
 /// Lowers δ until the law is obeyed.
 fn lowered(scene: &Scene, mut contacts: Contacts, control: &Control, answer: &mut DryLoadFactor) {
     let Model { assembly, interfaces, .. } = scene.model;
-    let scale = check::natural_factor(assembly);
+    let scale = claim::natural_factor(assembly);
     let still = vec![0.0; contacts.discs().count()];
     let first = StoppingCriterion { change: 0.0, solves: 1 };
     let begun = engines(&contacts).iter().find_map(|engine| {
@@ -237,7 +239,7 @@ fn accept(
     let found = distance.is_obeyed()
         && s.is_within_strength()
         && s.unbalance <= tolerance::DRY_BALANCE
-        && hidden(model, &s.residuals, &rates) <= check::dry_width(&model.assembly, lambda);
+        && hidden(model, &s.residuals, &rates) <= claim::dry_width(&model.assembly, lambda);
     if found {
         (answer.found, answer.value) = (Found::FixedPoint, Some(lambda));
     }
@@ -275,9 +277,9 @@ fn hidden(model: &Model, residuals: &[Wrench], rates: &[Rate]) -> f64 {
 
 /// Whether the live load alone, on joints without any strength, produces the forces that balance
 /// it.
-pub(in crate::analysis) fn part_rests_alone(model: &Model, control: &Control) -> bool {
+pub(crate) fn part_rests_alone(model: &Model, control: &Control) -> bool {
     let Model { assembly, interfaces, .. } = model;
-    let (alone, _) = check::live_alone(assembly);
+    let (alone, _) = claim::live_alone(assembly);
     let alone = Model::new(alone, unlimited(interfaces).0);
     is_forest(&alone) || state(&alone, control).motion == StateMotion::Rests
 }
@@ -285,8 +287,10 @@ pub(in crate::analysis) fn part_rests_alone(model: &Model, control: &Control) ->
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{analysis::limit, interface::prepare, scene::read_str};
+    use crate::limit;
+    use model::interface::prepare;
     use nalgebra::Vector3;
+    use scene::read_str;
     use serde_json::json;
 
     /// A live load on one block of a large wall concerns few equations, which the engine on the

@@ -1,12 +1,12 @@
-//! Dry friction exactly: what the fixed points of [`crate::program::coulomb`] say about state and
+//! Dry friction exactly: what the fixed points of [`solve::program::coulomb`] say about state and
 //! load factor.
 
 use super::{Control, LoadFactor, Proved};
-use crate::{
-    interface::Model,
+use check::{
     terms::{Law, Outcome},
     verdict::{Rate, Verdict, no_forces},
 };
+use model::interface::Model;
 
 mod answer;
 mod crushing;
@@ -19,8 +19,8 @@ pub use super::parts::{
     assess::motion,
     dry::{load_factor, load_factor_from, rests_alone},
 };
-pub use crate::terms::{Found, StateMotion, StateStep, is_reached, resolution};
 pub use answer::DryLoadFactor;
+pub use check::terms::{Found, StateMotion, StateStep, is_reached, resolution};
 pub(super) use load_factor::{complementary, of_part, part_rests_alone};
 pub(super) use rest::up_to_rest;
 pub use state::{State, refined, state};

@@ -14,14 +14,16 @@ use super::{
     distance::slides_nowhere,
     state::{State, within},
 };
-use crate::{
-    analysis::{Control, LoadFactor, Outcome},
+use crate::{Control, LoadFactor, Outcome};
+use base::{number, tolerance};
+use check::{
+    terms::{Found, MANY, StateMotion, is_reached, resolution},
+    verdict::{Forces, Verdict, claim, law},
+};
+use cholesky::parallel;
+use model::{
     assembly::Assembly,
     interface::{Model, is_forest},
-    number, parallel,
-    terms::{Found, MANY, StateMotion, is_reached, resolution},
-    tolerance,
-    verdict::{Forces, Verdict, check, law},
 };
 
 /// Where the state is asked on the way to a value, in shares of it. Fewer: what comes loose on the
@@ -260,7 +262,7 @@ impl Probe<'_> {
 /// Makes a complementary solution the load factor up to which the scene comes to rest. `dead` is
 /// the verdict under the dead load, where it is known, `at` the `assembly` under a load factor as
 /// its dead load.
-pub(in crate::analysis) fn up_to_rest(
+pub(crate) fn up_to_rest(
     complementary: impl FnOnce() -> DryLoadFactor,
     assembly: &Assembly,
     associative: &LoadFactor,
@@ -288,7 +290,7 @@ pub(in crate::analysis) fn up_to_rest(
     let bound = associative.value.filter(|_| associative.outcome == Outcome::Found);
     // Nothing may be added to the dead load, as far as numbers tell: the value is zero where that
     // rests.
-    let least = tolerance::LOAD_FACTOR_FLOOR * check::natural_factor(assembly);
+    let least = tolerance::LOAD_FACTOR_FLOOR * claim::natural_factor(assembly);
     let nothing_more = bound.is_some() && associative.bracket.upper <= least;
     let negative = bound.is_some_and(|b| b <= 0.0);
     if !matches!(associative.outcome, Outcome::Found | Outcome::Unbounded) {
@@ -394,7 +396,7 @@ fn climb(
             }
         }
         None => {
-            let natural = check::natural_factor(assembly);
+            let natural = claim::natural_factor(assembly);
             probe.climb(&WITHOUT_END, natural);
         }
     }

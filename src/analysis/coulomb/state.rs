@@ -11,23 +11,23 @@
 //! have slid to, and the loads are put on at once.
 
 use super::crushing::within_strength;
-use crate::{
-    analysis::attempt::Control,
-    deadline::Deadline,
-    interface::Model,
-    program::{
-        StaticsOptions,
-        coulomb::{Contacts, HeldQuantity, Objective},
-    },
-    solve::{
-        Settings,
-        coulomb::{Exact, FixedPoint, Newton, Solved, Solvers, StoppingCriterion, iterate},
-    },
+use crate::attempt::Control;
+use base::tolerance;
+use check::{
     terms::{StateMotion, StateStep},
-    tolerance,
     verdict::{
         Forces,
         law::{self, Released},
+    },
+};
+use model::interface::Model;
+use solve::{
+    Settings,
+    coulomb::{Exact, FixedPoint, Newton, Solved, Solvers, StoppingCriterion, iterate},
+    deadline::Deadline,
+    program::{
+        StaticsOptions,
+        coulomb::{Contacts, HeldQuantity, Objective},
     },
 };
 use std::time::Instant;
@@ -479,7 +479,8 @@ fn decide(history: &[Seen], epsilon: f64, point: &FixedPoint, moved: &Released) 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{interface::prepare, scene::read_str};
+    use model::interface::prepare;
+    use scene::read_str;
 
     /// A cube on a slope of 45° slides; asked with no work allowed it stays open, with as much as it
     /// took it comes out.

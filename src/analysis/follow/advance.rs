@@ -18,20 +18,21 @@
 //! is the greatest load factor.
 
 use super::{program, tracker::Tracker};
-use crate::{
-    analysis::{Control, assess, mend},
-    assembly::Pose,
-    interface::Model,
+use crate::{Control, assess, mend};
+use base::tolerance;
+use check::{
     path::Spot,
+    terms::Law,
+    verdict::{Forces, Rate, Verdict, certificate, claim, exact::existence},
+};
+use model::{assembly::Pose, interface::Model};
+use nalgebra::{UnitQuaternion, Vector3};
+use scene::Friction;
+use solve::{
+    coulomb::Anderson,
     program as conic,
     program::{Statics, StaticsOptions},
-    scene::Friction,
-    solve::coulomb::Anderson,
-    terms::Law,
-    tolerance,
-    verdict::{Forces, Rate, Verdict, certificate, check, exact::existence},
 };
-use nalgebra::{UnitQuaternion, Vector3};
 
 /// What a joint does over a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -253,7 +254,7 @@ impl Tracker<'_> {
         let statics = self.statics(model);
         let assembly = &model.assembly;
         let by = statics.total_load() * reach;
-        let scale = check::natural_factor(assembly);
+        let scale = claim::natural_factor(assembly);
         let way = |to: &[Pose], since: &[Pose], i: usize, at: &Vector3<f64>| {
             let start = self.carried.before(poses, i, at);
             let c = self.start().blocks[i].centroid;
@@ -295,7 +296,7 @@ impl Tracker<'_> {
                     if assembly.blocks[i].support {
                         Vector3::zeros()
                     } else {
-                        crate::verdict::at(assembly, rates, i, &p)
+                        check::verdict::at(assembly, rates, i, &p)
                     }
                 });
                 r.so_far + (b - a) * times
@@ -467,7 +468,7 @@ impl Tracker<'_> {
     fn statics(&self, model: &Model) -> Statics {
         let live = self.drive.is_push();
         let plane = Statics::new(model, StaticsOptions { live, ..StaticsOptions::default() });
-        let crate::path::Drive::Settle(moves) = self.drive else { return plane };
+        let check::path::Drive::Settle(moves) = self.drive else { return plane };
         // A plane scene knows no motion out of its plane.
         let across = plane.plane.is_some_and(|p| {
             moves.rates(self.carried.start).iter().any(|r| {
@@ -494,7 +495,7 @@ impl Tracker<'_> {
     ) -> Option<Rested> {
         let found = self.carried.displaced(&poses);
         let list = &found.model.interfaces.list;
-        let mut forces: Forces = crate::verdict::no_forces(&found.model.interfaces);
+        let mut forces: Forces = check::verdict::no_forces(&found.model.interfaces);
         let largest = solved.forces.iter().flatten().map(|w| w.force.norm()).fold(0.0, f64::max);
         for ((k, spots), own) in stage.spots.iter().zip(&solved.forces) {
             for (spot, w) in spots.iter().zip(own) {

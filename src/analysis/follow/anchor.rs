@@ -17,13 +17,10 @@ use super::{
     root::narrow,
     tracker::Tracker,
 };
-use crate::{
-    assembly::Pose,
-    interface::Model,
-    path::{Carried, Displaced, Drive},
-    scene::Friction,
-};
+use check::path::{Carried, Displaced, Drive};
+use model::{assembly::Pose, interface::Model};
 use nalgebra::Vector3;
+use scene::Friction;
 
 /// A pose as a start.
 pub(super) struct Anchor<'a> {
@@ -154,7 +151,7 @@ impl<'a> Anchor<'a> {
             return from;
         }
         let own = &carried.joints[k];
-        let is_of = |f: &crate::interface::Interface| (f.a, f.b) == (own.a, own.b);
+        let is_of = |f: &model::interface::Interface| (f.a, f.b) == (own.a, own.b);
         self.first.joints.iter().position(is_of).unwrap_or_default()
     }
 

@@ -8,25 +8,29 @@ use super::{
     tracker::{meets, size},
 };
 use crate::{
-    analysis::{
-        Claims, Control, LoadFactor, Proved, SettleOptions, assess, coulomb, limit, mend,
-        question::PushOptions,
-    },
-    assembly::{Member, Pose, Solid, Wrench},
+    Claims, Control, LoadFactor, Proved, SettleOptions, assess, coulomb, limit, mend,
+    question::PushOptions,
+};
+use base::{
     error::{InputError, JsonPath},
-    interface::Model,
+    tolerance,
+};
+use check::{
     path::{
         Carried, Displaced, Drive, Move, Moves, member, reaction,
         saved::{SavedPose, read_poses, write_poses},
     },
     terms::Law,
-    tolerance,
     verdict::{
         Evidence, Forces, Rate, Verdict, certificate,
-        check::{self, Claim, Findings},
+        claim::{self, Claim, Findings},
         exact::{existence, motion},
         tilted::unit,
     },
+};
+use model::{
+    assembly::{Member, Pose, Solid, Wrench},
+    interface::Model,
 };
 use nalgebra::Vector3;
 use std::{
@@ -149,7 +153,7 @@ pub fn push(
     if (point - blocks[block].centroid).norm() > blocks[block].size {
         let c: [f64; 3] = blocks[block].centroid.into();
         return Err(error(format!("the control point is no point of {id}"))
-            .hint(format!("its centre of mass is at {}", crate::number::point(c))));
+            .hint(format!("its centre of mass is at {}", base::number::point(c))));
     }
     let toward = unit(options.toward.into());
     let drive = Drive::Push { block, point, toward };
@@ -377,7 +381,7 @@ fn proof(carried: &Carried, how: &Follow, point: &Point, control: &Control) -> P
 fn carried_forces(carried: &Carried, found: &Displaced, point: &Point, poses: &[Pose]) -> Forces {
     let model = &found.model;
     let touching = carried.touching(poses, &point.closed);
-    let mut forces = crate::verdict::no_forces(&model.interfaces);
+    let mut forces = check::verdict::no_forces(&model.interfaces);
     let joints = touching.model.interfaces.list.len();
     for (own, given) in forces[model.interfaces.list.len()..]
         .iter_mut()
@@ -418,7 +422,7 @@ fn linkage_proof(
     let mut forces = carried_forces(carried, found, point, poses);
     mend::cut(&model.interfaces, &mut forces);
     let rates = point.rates.clone();
-    let upper = check::upper_bound(motion::motion(model, &rates), || {
+    let upper = claim::upper_bound(motion::motion(model, &rates), || {
         certificate::kinematics(model, &rates, &forces).upper()
     });
     let lower = point.load_factor.min(upper);
@@ -468,7 +472,7 @@ fn dry_proof(
 ) -> PointProof {
     let (model, value) = (&found.model, point.load_factor);
     let width = tolerance::LOAD_FACTOR_WIDTH * value.abs()
-        + tolerance::LOAD_FACTOR_FLOOR * check::natural_factor(&model.assembly);
+        + tolerance::LOAD_FACTOR_FLOOR * claim::natural_factor(&model.assembly);
     if bound.claim().is_some() && bound.value.is_some_and(|b| (b - value).abs() <= width) {
         return PointProof::of(model, bound);
     }
@@ -494,7 +498,7 @@ type Touch = [(usize, Vec<Vector3<f64>>)];
 /// The forces of a point after sliding at the contacts that its poses have.
 fn slid_forces(carried: &Carried, found: &Displaced, point: &Point, touch: &Touch) -> Forces {
     let list = &found.model.interfaces.list;
-    let mut forces = crate::verdict::no_forces(&found.model.interfaces);
+    let mut forces = check::verdict::no_forces(&found.model.interfaces);
     for ((k, places), given) in touch.iter().zip(&point.forces) {
         for (at, w) in places.iter().zip(given) {
             let near = (0..list.len())

@@ -9,17 +9,19 @@ use super::{
     root::narrow,
     tracker::{At, Tracker, size},
 };
-use crate::{
-    analysis::{Control, assess},
-    assembly::Pose,
-    deadline::Deadline,
-    interface::{Interface, Model},
+use crate::{Control, assess};
+use base::tolerance;
+use check::{
     path::{Carried, Demand, Drive},
     terms::Law,
-    tolerance,
-    verdict::{Rate, Verdict, check::natural_factor},
+    verdict::{Rate, Verdict, claim::natural_factor},
+};
+use model::{
+    assembly::Pose,
+    interface::{Interface, Model},
 };
 use nalgebra::Vector3;
+use solve::deadline::Deadline;
 
 /// How a path is followed.
 #[derive(Clone, Debug)]
@@ -40,7 +42,7 @@ pub struct Follow {
 
 /// Gaps below this × the size of the smaller block overlap. Nearer to zero: rounding of the poses is
 /// taken for a joint that closes. Farther: joints sink in before they are seen to close, up to
-/// [`tolerance::JOINT_CLOSED`](crate::tolerance::JOINT_CLOSED), where they are no pose any more.
+/// [`tolerance::JOINT_CLOSED`](base::tolerance::JOINT_CLOSED), where they are no pose any more.
 const OVERLAP: f64 = -1e-10;
 /// Values of the parameter are known to this × what they are. Larger: the two sides of a fall are far
 /// apart. Smaller: the last digits of a double.

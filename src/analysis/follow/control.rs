@@ -5,12 +5,14 @@ use super::{
     advance::{AT_REST, Push, Rested, Stage, Step, UNSETTLED, live_power},
     tracker::Tracker,
 };
-use crate::{
+use base::tolerance;
+use check::{
+    path::{Demand, Spot},
+    verdict::Rate,
+};
+use model::{
     assembly::{Pose, Wrench},
     interface::Model,
-    path::{Demand, Spot},
-    tolerance,
-    verdict::Rate,
 };
 use nalgebra::Vector3;
 
@@ -18,7 +20,7 @@ impl Tracker<'_> {
     /// How far a block moves at most at these rates, m/s.
     pub(super) fn farthest(&self, rates: &[Rate]) -> f64 {
         let speed =
-            |(r, b): (&Rate, &crate::assembly::Block)| r.velocity.norm() + r.spin.norm() * b.size;
+            |(r, b): (&Rate, &model::assembly::Block)| r.velocity.norm() + r.spin.norm() * b.size;
         rates.iter().zip(&self.start().blocks).map(speed).fold(0.0, f64::max)
     }
 
@@ -51,7 +53,7 @@ impl Tracker<'_> {
             at: *at,
             gap: 0.0,
             normal,
-            side: crate::path::Side::Neither,
+            side: check::path::Side::Neither,
         };
         let spots =
             found.model.interfaces.list.iter().zip(&found.from).map(|(f, &k)| {

@@ -7,15 +7,13 @@
 //! movement is that of the least reaction.
 
 use super::program::least_reaction;
-use crate::{
-    error::{InputError, JsonPath},
-    interface::{Interface, Model},
-    program::{Statics, StaticsOptions},
-    verdict::{Rate, at},
-};
+use base::error::{InputError, JsonPath};
+use check::verdict::{Rate, at};
+use model::interface::{Interface, Model};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use solve::program::{Statics, StaticsOptions};
 
 /// Cracks that are seen.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -8,7 +8,7 @@ use super::{
     root::narrow,
     tracker::Tracker,
 };
-use crate::assembly::Pose;
+use model::assembly::Pose;
 use nalgebra::DVector;
 
 /// Where it comes to rest.

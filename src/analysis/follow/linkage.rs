@@ -2,11 +2,11 @@
 //! to rounding.
 
 use super::program::Hold;
-use crate::path::{self, Carried, Demand, Drive};
-use crate::{
+use check::path::{self, Carried, Demand, Drive};
+use check::verdict::member::legs;
+use model::{
     assembly::{Pose, Wrench},
     interface::Model,
-    verdict::member::legs,
 };
 use nalgebra::{DMatrix, DVector, UnitQuaternion, Vector3};
 

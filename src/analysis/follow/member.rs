@@ -8,12 +8,12 @@ use super::{
     root::narrow,
     tracker::{Tracker, pin},
 };
-use crate::{
-    assembly::Pose,
+use base::tolerance;
+use check::{
     path::member::{extent, scale},
-    tolerance,
     verdict::member::amounts,
 };
+use model::assembly::Pose;
 
 /// By how much the member that is worst off would have to carry more than it can for the others to
 /// keep their extents.

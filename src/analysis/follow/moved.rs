@@ -2,13 +2,15 @@
 //! its quantities bears on how the rest is followed: not its weight, its size, nor its place.
 
 use super::point::{End, Event, Path, Point};
-use crate::{
-    analysis::{Control, assess, limit},
-    assembly::Pose,
-    interface::{self, Model},
+use crate::{Control, assess, limit};
+use check::{
     path::{Carried, Drive, Move, Moves},
     terms::{Law, Outcome},
     verdict::{Forces, Rate, Verdict},
+};
+use model::{
+    assembly::Pose,
+    interface::{self, Model},
 };
 use nalgebra::Vector3;
 use std::collections::HashSet;
@@ -236,6 +238,6 @@ fn bears(rest: &Model, own: &Model, control: &Control) -> bool {
             Outcome::Impossible | Outcome::Undecided => None,
         }
     };
-    let loaded = rest.assembly.live.iter().any(|w| *w != crate::assembly::Wrench::zero());
+    let loaded = rest.assembly.live.iter().any(|w| *w != model::assembly::Wrench::zero());
     !loaded || factor(rest).zip(factor(own)).is_some_and(|(rest, own)| own < rest)
 }

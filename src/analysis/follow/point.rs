@@ -1,11 +1,9 @@
 //! Points, events and ends of a path.
 
 #[cfg(doc)]
-use crate::path::Carried;
-use crate::{
-    assembly::Pose,
-    verdict::{Forces, Rate},
-};
+use check::path::Carried;
+use check::verdict::{Forces, Rate};
+use model::assembly::Pose;
 use nalgebra::Vector3;
 
 /// A point of a path.

@@ -1,13 +1,12 @@
 //! What programs say at one pose: how much room its forces have, and where it goes next.
 
-use crate::path::{self, Carried, Drive};
-use crate::{
-    assembly::Pose,
-    interface::Model,
+use check::path::{self, Carried, Drive};
+use check::verdict::{self, Forces, Rate, claim};
+use model::{assembly::Pose, interface::Model};
+use scene::Friction;
+use solve::{
+    EngineSettings, Settings, Solution,
     program::{self, ConicProgram, Statics, StaticsOptions, Unknowns},
-    scene::Friction,
-    solve::{self, EngineSettings, Settings, Solution},
-    verdict::{self, Forces, Rate, check},
 };
 
 /// The room that the forces of a pose have.
@@ -201,7 +200,7 @@ pub fn least_reaction(model: &Model, supports: &[Rate]) -> Option<(Forces, Vec<R
 /// what rests in it is at rest.
 fn load_factor(model: &Model) -> Option<(Forces, Vec<Rate>)> {
     let statics = Statics::new(model, StaticsOptions { live: true, ..StaticsOptions::default() });
-    let scale = check::natural_factor(&model.assembly);
+    let scale = claim::natural_factor(&model.assembly);
     let (program, layout) = program::load_factor(&statics, scale, Unknowns::Forces);
     let solution = solved(&program)?;
     let x = layout.forces(&solution.x, &solution.z);

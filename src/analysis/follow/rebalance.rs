@@ -12,11 +12,9 @@
 //! changes nothing but how often is corrected.
 
 use super::program::Margin;
-use crate::{
-    cholesky::{Cholesky, Pattern},
-    interface::Model,
-    program::{self, BearingCone, Statics, StaticsOptions},
-};
+use cholesky::{Cholesky, Pattern};
+use model::interface::Model;
+use solve::program::{self, BearingCone, Statics, StaticsOptions};
 
 /// Corrections at most. Each leaves a small part of what was there.
 const ROUNDS: usize = 6;

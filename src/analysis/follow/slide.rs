@@ -9,12 +9,12 @@ use super::{
     root::narrow,
     tracker::Tracker,
 };
-use crate::{
-    analysis::{Control, assess},
-    assembly::Pose,
+use crate::{Control, assess};
+use check::{
     terms::Law,
     verdict::{Rate, Verdict},
 };
+use model::assembly::Pose;
 use nalgebra::UnitQuaternion;
 
 /// Where a step does not come to rest, it is halved until it is shorter than this × the longest one:
@@ -328,7 +328,7 @@ impl Tracker<'_> {
                 })
                 .collect();
             let found = self.carried.displaced(&poses);
-            if found.deepest.is_some_and(|c| c.gap < -crate::tolerance::JOINT_CLOSED) {
+            if found.deepest.is_some_and(|c| c.gap < -base::tolerance::JOINT_CLOSED) {
                 return None;
             }
             let verdict = assess(&found.model, &control);
@@ -359,7 +359,7 @@ impl Tracker<'_> {
 }
 
 /// The joint at the start of every contact, and its places.
-fn touch(found: &crate::path::Displaced) -> Vec<(usize, Vec<nalgebra::Vector3<f64>>)> {
+fn touch(found: &check::path::Displaced) -> Vec<(usize, Vec<nalgebra::Vector3<f64>>)> {
     let list = found.model.interfaces.list.iter().map(|f| f.points.clone());
     found.from.iter().copied().zip(list).collect()
 }

@@ -1,14 +1,14 @@
 //! Which supports a question moves, and how far.
 
-use crate::{
-    analysis::SupportMove,
-    assembly::Assembly,
+use crate::SupportMove;
+use base::{
     error::{InputError, JsonPath},
-    path::Move,
-    scene::fits,
     tolerance,
 };
+use check::path::Move;
+use model::assembly::Assembly;
 use nalgebra::Vector3;
+use scene::fits;
 
 /// The ways of supports, in the order in which they are named.
 ///

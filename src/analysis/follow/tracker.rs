@@ -7,16 +7,18 @@ use super::{
     program::{self, Hold, Margin},
     rebalance::rebalanced,
 };
-use crate::{
-    analysis::{Control, assess},
-    assembly::{Assembly, Pose, Wrench},
-    deadline::Deadline,
-    interface::{Interface, Model, detect},
+use crate::{Control, assess};
+use check::{
     path::{Carried, Corner, Drive, member},
     terms::Law,
     verdict::{Rate, Verdict},
 };
+use model::{
+    assembly::{Assembly, Pose, Wrench},
+    interface::{Interface, Model, detect},
+};
 use nalgebra::{DMatrix, DVector, Vector3};
+use solve::deadline::Deadline;
 use std::collections::HashSet;
 
 pub(super) struct Tracker<'a> {

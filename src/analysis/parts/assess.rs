@@ -2,15 +2,15 @@
 
 use super::{each, left_out, put_rates, scene_forces, scene_rates};
 use crate::{
-    analysis::{
-        Assessment, Control,
-        assess::{falls_freely, of_part},
-        coulomb::{State, StateMotion, state},
-    },
-    interface::{self, Model, Part, is_forest},
+    Assessment, Control,
+    assess::{falls_freely, of_part},
+    coulomb::{State, StateMotion, state},
+};
+use check::{
     terms::Deciding,
     verdict::{Rate, Verdict, mechanism},
 };
+use model::interface::{self, Model, Part, is_forest};
 
 /// Decides whether an assembly stands under its dead load, part by part.
 pub fn assess(model: &Model, control: &Control) -> Assessment {

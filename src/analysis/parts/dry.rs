@@ -7,19 +7,19 @@ use super::{
     scene_forces, scene_rates,
 };
 use crate::{
-    analysis::{
-        Control, Law, LoadFactor, Outcome, Proved,
-        assess::of_part as assess_part,
-        coulomb::{self, DryLoadFactor, Found},
-        limit::of_part as limit_part,
-    },
-    interface::{self, Model, Part},
+    Control, Law, LoadFactor, Outcome, Proved,
+    assess::of_part as assess_part,
+    coulomb::{self, DryLoadFactor, Found},
+    limit::of_part as limit_part,
+};
+use check::{
     terms::Deciding,
     verdict::{Forces, Verdict, no_forces},
 };
+use model::interface::{self, Model, Part};
 
 /// The load factor with dry friction, up to which every part comes to rest; `associative` is the
-/// answer of [`limit`](crate::analysis::limit()) for the same model.
+/// answer of [`limit`](crate::limit()) for the same model.
 pub fn load_factor(
     model: &Model,
     associative: &LoadFactor,
@@ -61,11 +61,7 @@ pub fn unproved(
 /// What is known of a part under the dead load where `dead` is the verdict of the scene: where all
 /// stands, every part does; where it falls, one of them does, and each is asked whether it is the
 /// one; any other verdict is that of one of them.
-pub(in crate::analysis) fn dead_of(
-    part: &Part,
-    dead: Option<Verdict>,
-    control: &Control,
-) -> Option<Verdict> {
+pub(crate) fn dead_of(part: &Part, dead: Option<Verdict>, control: &Control) -> Option<Verdict> {
     match dead? {
         Verdict::Unstable => {
             let control = Control { law: Law::Associative, ..*control };

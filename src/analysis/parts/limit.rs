@@ -2,16 +2,18 @@
 
 use super::{each, left_out, put_rates, scene_attempts, scene_forces, scene_rates};
 use crate::{
-    analysis::{
-        Assessment, Attempt, Bracket, Control, Law, LoadFactor, Outcome,
-        assess::of_part as assess_part,
-        limit::{of_part as limit_part, of_part_near as limit_part_near},
-        near::Near,
-    },
-    assembly::Wrench,
-    interface::{self, Model, Part},
+    Assessment, Attempt, Bracket, Control, Law, LoadFactor, Outcome,
+    assess::of_part as assess_part,
+    limit::{of_part as limit_part, of_part_near as limit_part_near},
+    near::Near,
+};
+use check::{
     terms::Deciding,
     verdict::{Forces, Rate, Verdict, certificate, mechanism, no_forces},
+};
+use model::{
+    assembly::Wrench,
+    interface::{self, Model, Part},
 };
 
 /// How parts are asked.
@@ -29,7 +31,7 @@ pub fn under(part: &Part, lambda: f64) -> Model {
 
 /// The greatest multiple of the live load under which every part has admissible contact forces; each
 /// begins near what it passed under other loads.
-pub(in crate::analysis) fn limit(model: &Model, control: &Control, near: &Near) -> LoadFactor {
+pub(crate) fn limit(model: &Model, control: &Control, near: &Near) -> LoadFactor {
     let solve = |part: &Part, control: &Control| {
         near.part(part, |near| limit_part_near(&part.model, control, near))
     };

@@ -1,4 +1,4 @@
-//! Questions about scenes of several independent parts ([`crate::interface::parts`]): each part is
+//! Questions about scenes of several independent parts ([`model::interface::parts`]): each part is
 //! asked by itself, on threads, and the answers are put together.
 //!
 //! A scene of one part goes the same way, so that a part is answered to the last digit alike alone
@@ -19,11 +19,11 @@ pub(super) mod limit;
 pub(super) mod thrust;
 
 use super::{Attempt, Control};
-use crate::{
+use check::verdict::{Forces, Rate, no_forces};
+use cholesky::parallel;
+use model::{
     assembly::Assembly,
     interface::{Interfaces, Part},
-    parallel,
-    verdict::{Forces, Rate, no_forces},
 };
 
 /// Contact points from which threads are worth starting. Fewer: rows of a sweep, which are on

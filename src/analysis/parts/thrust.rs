@@ -2,18 +2,16 @@
 
 use super::{left_out, put_rates, scene_forces};
 use crate::{
-    analysis::{
-        Bracket, Control, Outcome,
-        flip::Flip,
-        geometric::{self, Geometric},
-        thrust::{ThrustEnd, of_part},
-    },
-    interface::{self, Model, Part},
-    verdict::{
-        Forces, Rate,
-        thrust::{Extreme, MemberAt, Sought, ThrustAt},
-    },
+    Bracket, Control, Outcome,
+    flip::Flip,
+    geometric::{self, Geometric},
+    thrust::{ThrustEnd, of_part},
 };
+use check::verdict::{
+    Forces, Rate,
+    thrust::{Extreme, MemberAt, Sought, ThrustAt},
+};
+use model::interface::{self, Model, Part};
 
 /// The least or greatest thrust of a scene that stands; `standing` are forces that balance its
 /// loads.

@@ -5,11 +5,9 @@
 //! its distance from the origin is borne in every direction, and the nearest of the points bounds
 //! what is. Directions are added where the polygon is nearest.
 
-use crate::{
-    analysis::{Control, Law, limit},
-    interface::{ContactFrame, Model},
-    terms::{Bracket, Outcome},
-};
+use crate::{Control, Law, limit};
+use check::terms::{Bracket, Outcome};
+use model::interface::{ContactFrame, Model};
 use nalgebra::Vector3;
 
 /// The bracket is narrowed to this × its upper end. Smaller: more programs.

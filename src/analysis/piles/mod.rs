@@ -18,13 +18,13 @@ use super::{
     Bracket, Control, assess,
     forest::{Fate, Forest},
 };
-use crate::{
+use base::error::{Finding, InputError};
+use check::verdict::Verdict;
+use model::{
     assembly::{Put, Shelf},
-    error::{Finding, InputError},
     interface::{self, Model},
-    scene::Scene,
-    verdict::Verdict,
 };
+use scene::Scene;
 
 pub use margin::{MOST_DIRECTIONS, WITHIN};
 
@@ -80,7 +80,7 @@ impl Piles {
     /// The scene cannot be resolved, or says something about single blocks that are there (see
     /// [`Shelf::new`]).
     pub fn new(scene: &Scene) -> Result<Self, InputError> {
-        let shelf = Shelf::new(crate::assembly::resolve(scene)?)?;
+        let shelf = Shelf::new(model::assembly::resolve(scene)?)?;
         Ok(Self { shelf, control: Control::default(), margin: false })
     }
 

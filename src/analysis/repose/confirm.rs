@@ -2,7 +2,9 @@
 //! grain as it lies, by a method that shares nothing with the dynamics but the places of the grains.
 
 use super::super::{Control, assess, stability::held};
-use crate::{interface::prepare, scene::Scene, verdict::Verdict};
+use check::verdict::Verdict;
+use model::interface::prepare;
+use scene::Scene;
 use serde::{Deserialize, Serialize};
 
 /// Grains that are named where many creep.

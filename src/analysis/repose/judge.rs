@@ -5,7 +5,7 @@
 //! is the same all around and all the way down. Whatever fails is named; all thresholds are here.
 
 use super::surface::{Fit, Reading};
-use crate::scene::{GrainKind, Protocol, ProtocolKind};
+use scene::{GrainKind, Protocol, ProtocolKind};
 
 /// Fewest cells of the mean surface. Fewer: a default heap of 500 grains has four or five, and its
 /// seeds scatter by 3°. More: the heap of 2,000 grains that other codes are compared on has eight

@@ -6,13 +6,10 @@
 //!   the bulk.
 
 use super::surface::{CELL, Fit};
-use crate::{
-    assembly::Assembly,
-    dynamics::granular::Moment,
-    generate::bed_split,
-    scene::{Protocol, ProtocolKind},
-};
+use dynamics::granular::Moment;
+use model::assembly::Assembly;
 use nalgebra::Vector2;
+use scene::{Protocol, ProtocolKind, generate::bed_split};
 use serde::{Deserialize, Serialize};
 use std::{collections::BTreeMap, f64::consts::PI};
 

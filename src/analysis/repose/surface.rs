@@ -5,11 +5,9 @@
 //! it would explain little of its roughness.
 
 use super::Slope;
-use crate::{
-    assembly,
-    scene::{Protocol, ProtocolKind},
-};
+use model::assembly;
 use nalgebra::Vector3;
+use scene::{Protocol, ProtocolKind};
 use std::{collections::BTreeMap, f64::consts::TAU};
 
 /// Length of a cell along the slope, d. Shorter: cells whose highest grain is one of the layer

@@ -1,8 +1,8 @@
 //! Surfaces whose slope is known, and those that have none.
 
 use super::{Slope, judge::refuse, surface::read};
-use crate::scene::{Protocol, ProtocolKind};
 use nalgebra::Vector3;
+use scene::{Protocol, ProtocolKind};
 
 /// Tops of grains half a diameter apart in the box of 2,000 grains, at heights in d by place in d.
 fn boxed(protocol: &Protocol, height: impl Fn(f64, f64) -> f64) -> Vec<(Vector3<f64>, f64)> {

@@ -1,9 +1,7 @@
 //! Options of the question.
 
-use crate::{
-    analysis::{Law, question::check_directions},
-    error::{InputError, JsonPath},
-};
+use crate::{Law, question::check_directions};
+use base::error::{InputError, JsonPath};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -56,7 +54,7 @@ impl StagesOptions {
     }
 
     /// Refuses options of `stages` that mean nothing together.
-    pub(in crate::analysis) fn check(&self, path: &JsonPath) -> Result<(), InputError> {
+    pub(crate) fn check(&self, path: &JsonPath) -> Result<(), InputError> {
         let refuse = |key: &str, text: &str| Err(InputError::at(path.key(key), text));
         let tilts = self.all.is_some() || !self.toward.is_empty();
         if self.remove_each && tilts {

@@ -8,16 +8,17 @@
 //! That a set stands is proved afterwards, as a stage ([`super`]). That no order does with
 //! fewer holds is the outcome of a search through all of them: computed, not proved.
 
-use crate::{
-    analysis::{Control, known::Known},
-    assembly::{Placed, Stage},
-    error::InputError,
-    interface::{Model, at_stage},
-    plane::Sets,
-    scene::Scene,
+use crate::{Control, known::Known};
+use base::{error::InputError, plane::Sets};
+use check::{
     terms::Order,
     verdict::{Rate, Verdict},
 };
+use model::{
+    assembly::{Placed, Stage},
+    interface::{Model, at_stage},
+};
+use scene::Scene;
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 /// Sets looked at where nothing else is said. Fewer: of walls over an arch the least holds are not

@@ -16,12 +16,12 @@ use super::{
     incomplete::{CLOSELY, completed, solved},
     newton::{BALANCED, GLUE, GOOD, Newton},
 };
-use crate::{
-    analysis::Control,
-    assembly::Wrench,
+use crate::Control;
+use check::{
     verdict::Rate,
     yielding::{State, law::Friction},
 };
+use model::assembly::Wrench;
 
 /// The first multiple of the diagonal. More: more steps. Less: what slides overshoots.
 const FIRST: f64 = 0.1;

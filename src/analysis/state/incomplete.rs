@@ -2,11 +2,9 @@
 //! precision, which are kept as long as they do.
 
 use super::equations::Equations;
-use crate::{
-    solve::{Blocks, Fronts, Pattern},
-    yielding::{JointKind, System},
-};
+use check::yielding::{JointKind, System};
 use nalgebra::Vector6;
+use solve::{Blocks, Fronts, Pattern};
 use std::collections::BTreeMap;
 
 /// So many blocks that all touch as spheres do are a heap. Fewer: complete factors are faster.
@@ -92,11 +90,9 @@ fn flat(list: Vec<Vector6<f64>>) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{
-        interface::prepare,
-        scene::read_str,
-        yielding::{Joints, Quadrature},
-    };
+    use check::yielding::{Joints, Quadrature};
+    use model::interface::prepare;
+    use scene::read_str;
     use serde_json::json;
 
     /// A heap is one whatever stands beside it.

@@ -18,14 +18,13 @@ use super::{
     Assessment, Control, Law, LoadFactor, Outcome, Proved, assess, kinematic::control_of, limit,
     proved::Claims,
 };
-use crate::{
-    assembly::Wrench,
-    error::{InputError, JsonPath},
-    interface::Model,
+use base::error::{InputError, JsonPath};
+use check::{
     terms::Bound,
-    verdict::{Evidence, Forces, Rate, Verdict, check, check::Claim, no_forces},
+    verdict::{Evidence, Forces, Rate, Verdict, claim, claim::Claim, no_forces},
     yielding::{Joints, State, Step, System, Track, events},
 };
+use model::{assembly::Wrench, interface::Model};
 use nalgebra::Vector3;
 use newton::Newton;
 
@@ -52,7 +51,7 @@ pub struct Stated {
     pub steps: usize,
 }
 
-pub use crate::yielding::{PathEnd, PathFactor};
+pub use check::yielding::{PathEnd, PathFactor};
 
 /// Forces that balance the dead load.
 #[derive(Clone, Debug)]
@@ -194,7 +193,7 @@ fn both_weigh(model: &Model, joints: &Joints) -> f64 {
     let mut assembly = model.assembly.clone();
     let beside = |i: &usize| !joints.reached.contains(i);
     (0..assembly.dead.len()).filter(beside).for_each(|i| assembly.dead[i] = Wrench::zero());
-    check::natural_factor(&assembly)
+    claim::natural_factor(&assembly)
 }
 
 /// The block with the greatest live load, and its centre of mass.

@@ -11,14 +11,14 @@ use super::{
     equations::{Equations, scaled},
     incomplete,
 };
-use crate::{
-    analysis::Control,
-    assembly::Wrench,
-    solve::{Cholesky, Fronts, Lu},
+use crate::Control;
+use check::{
     verdict::Rate,
     yielding::{State, System, law::Friction},
 };
+use model::assembly::Wrench;
 use nalgebra::Vector3;
+use solve::{Cholesky, Fronts, Lu};
 
 /// Balance that is reached, by the measure of the joints' stiffness. Less: rounding of displacements
 /// keeps tall scenes from it. More: forces have fewer digits than their check asks for.

@@ -1,6 +1,7 @@
 //! Options of the question.
 
-use crate::{analysis::ControlPoint, yielding::Quadrature};
+use crate::ControlPoint;
+use check::yielding::Quadrature;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -24,7 +24,7 @@ pub fn run(
     terminal::notes(other.iter().flat_map(|(.., said)| said));
     let scene = other.as_ref().map_or(&file.scene.input, |(scene, ..)| scene);
     let located = |e: voussoir::error::InputError| match &other {
-        Some((_, source, _)) => e.located(source),
+        Some((_, source, _)) => source.located(e),
         None => e,
     };
     let verification = verify(file, scene).map_err(located)?;

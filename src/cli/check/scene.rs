@@ -21,7 +21,7 @@ pub fn run(
     pictures: &Pictures,
     terminal: &Terminal,
 ) -> anyhow::Result<Exit> {
-    let mut model = prepare(scene).map_err(|e| e.located(source))?;
+    let mut model = prepare(scene).map_err(|e| source.located(e))?;
     model.assembly.findings.splice(0..0, said);
     let (mistakes, notes): (Vec<Finding>, Vec<Finding>) =
         model.findings().cloned().partition(|f| f.code.is_mistake());

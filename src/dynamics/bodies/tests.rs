@@ -1,7 +1,9 @@
 //! What every pair rubs like, said by its two bodies.
 
 use super::*;
-use crate::{assembly, interface::Interfaces, scene::read_str, tolerance::GRAIN_SKIN};
+use base::tolerance::GRAIN_SKIN;
+use model::{assembly, interface::Interfaces};
+use scene::read_str;
 use serde_json::{Value, json};
 
 /// Whether two balls beside these supports are combined, and then as by a look at the pair.

@@ -14,11 +14,11 @@ use super::{
     },
     Loads, ONSET, PATIENCE, REPORT, Stage, State, smooth, strengths, unknown_members,
 };
-use crate::{
+use base::{
     error::{Finding, InputError, JsonPath},
-    interface::Model,
     tolerance::{REST_ENERGY, REST_TIME, SKIN},
 };
+use model::interface::Model;
 use nalgebra::{UnitQuaternion, Vector3};
 use std::{ops::ControlFlow, time::Instant};
 

@@ -16,12 +16,12 @@ use super::{
     },
     Beside, Loads, PATIENCE, Pulls, REPORT, Stage, State, strengths, unknown_members,
 };
-use crate::{
+use base::{
     error::{Finding, FindingCode, InputError, JsonPath},
-    ground::{Motion, When},
-    interface::Model,
     tolerance::{ALONG, OVERTURNED, REST_ENERGY, REST_TIME, SKIN, SUNK},
 };
+use check::ground::{Motion, When};
+use model::interface::Model;
 use nalgebra::Vector3;
 use std::{collections::BTreeMap, ops::ControlFlow, time::Instant};
 
@@ -276,7 +276,7 @@ impl Stage<'_> {
             blocks,
             fidelity,
             step: dt * unit,
-            substeps: fidelity.fineness().1,
+            substeps: super::fineness(fidelity).1,
             steps,
             time: steps as f64 * dt * unit,
             stop,
@@ -300,7 +300,7 @@ impl Stage<'_> {
             *moments.entry(block).or_default() += (turned - arm).cross(&force);
         }
         for i in self.model.assembly.free() {
-            let crate::assembly::Wrench { force, moment } = self.loads.total[i];
+            let model::assembly::Wrench { force, moment } = self.loads.total[i];
             let moment = moment + moments.get(&i).copied().unwrap_or_default();
             let couple = couples.get(&i).copied().unwrap_or_default();
             let body = &self.bodies[i];

@@ -1,7 +1,7 @@
 //! From where a structure is seen.
 
 use super::choice::Movement;
-use crate::report::view::View;
+use crate::view::View;
 use nalgebra::Vector3;
 use std::str::FromStr;
 

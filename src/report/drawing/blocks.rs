@@ -5,10 +5,8 @@ use super::{
     projection::Projection,
     sheet::Sheet,
 };
-use crate::{
-    plain::markup,
-    report::view::{Surface, View},
-};
+use crate::view::{Surface, View};
+use base::plain::markup;
 use nalgebra::Vector3;
 use std::{collections::HashMap, fmt::Write};
 

@@ -1,6 +1,6 @@
 //! Blocks where they are drawn: in place, or moved.
 
-use crate::report::view::{Body, Surface, View, ViewPose, ViewShape};
+use crate::view::{Body, Surface, View, ViewPose, ViewShape};
 use nalgebra::{Matrix3, Vector3};
 
 /// Where the points of a block go: `p ↦ p + shift + turn (p − c)`, c its centre of mass.

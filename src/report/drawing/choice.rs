@@ -1,11 +1,8 @@
 //! Which forces and which motion stand on a drawing: those of the answer that is told first.
 
 use super::body::{Displacement, Solid, posed};
-use crate::{
-    number::short,
-    report::view::{Body, Mark, View, ViewMotion, ViewPart, ViewPose, ViewShape, ViewState},
-    tolerance::MECHANISM_REST,
-};
+use crate::view::{Body, Mark, View, ViewMotion, ViewPart, ViewPose, ViewShape, ViewState};
+use base::{number::short, tolerance::MECHANISM_REST};
 use nalgebra::Vector3;
 
 /// The greatest way of a corner that is shown of a mechanism, over the size of the structure.
@@ -128,7 +125,7 @@ impl Movement {
         let frame = view.film.last().filter(|_| view.course.words.is_empty())?;
         let poses = || view.bodies.iter().zip(&frame.blocks);
         let displacements = |by: f64| -> Vec<Displacement> {
-            let pose = |(b, p): (&Body, &crate::dynamics::Pose)| ViewPose {
+            let pose = |(b, p): (&Body, &dynamics::Pose)| ViewPose {
                 shift: (p.center - b.center) * by,
                 turn: p.turn.powf(by),
             };

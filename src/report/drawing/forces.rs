@@ -8,7 +8,8 @@ use super::{
     projection::Projection,
     sheet::Sheet,
 };
-use crate::{report::view::ViewState, tolerance};
+use crate::view::ViewState;
+use base::tolerance;
 use std::fmt::Write;
 
 /// Thickness of the line where no force passes, and of the greatest force, units of the sheet.

@@ -5,7 +5,7 @@ use super::{
     body::{Form, Solid},
     projection::Projection,
 };
-use crate::plane::polygon::{self, P2};
+use base::plane::polygon::{self, P2};
 
 /// Hulls that overlap by less than this × their reach only touch.
 const TOUCH: f64 = 1e-6;

@@ -1,7 +1,7 @@
 //! What the signs mean, and how long a metre is.
 
 use super::{LINE, MARGIN, WIDTH, projection::Projection, sheet::Sheet};
-use crate::plain::markup;
+use base::plain::markup;
 
 /// Width of a sign.
 const SIGN: f64 = 30.0;

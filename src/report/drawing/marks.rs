@@ -8,10 +8,8 @@ use super::{
     projection::Projection,
     sheet::Sheet,
 };
-use crate::{
-    report::view::{Joint, View, ViewLoad, ViewState},
-    verdict::mechanism::JointMotion as Kind,
-};
+use crate::view::{Joint, View, ViewLoad, ViewState};
+use check::verdict::mechanism::JointMotion as Kind;
 use nalgebra::Vector3;
 use std::fmt::Write;
 

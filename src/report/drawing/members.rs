@@ -5,7 +5,7 @@ use super::{
     projection::Projection,
     sheet::Sheet,
 };
-use crate::report::view::{View, ViewMember};
+use crate::view::{View, ViewMember};
 use nalgebra::Vector3;
 
 /// The look of members; only drawings with members have it.

@@ -25,7 +25,7 @@ pub use aspect::Aspect;
 pub(super) use choice::sized;
 
 use super::view::View;
-use crate::plain::markup;
+use base::plain::markup;
 use choice::{Choice, Movement};
 use legend::{Glyph, Legend};
 use nalgebra::Vector3;

@@ -10,7 +10,7 @@ use super::{
     hull::Hull,
     projection::Projection,
 };
-use crate::report::view::View;
+use crate::view::View;
 use nalgebra::Vector3;
 use std::{cmp::Ordering, collections::BinaryHeap, collections::HashMap};
 

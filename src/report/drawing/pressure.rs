@@ -6,7 +6,8 @@ use super::{
     projection::Projection,
     sheet::Sheet,
 };
-use crate::{number::short, report::view::View};
+use crate::view::View;
+use base::number::short;
 use std::fmt::Write;
 
 /// Height of the greatest pressure, units of the sheet.

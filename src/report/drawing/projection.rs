@@ -4,7 +4,7 @@ use super::{
     aspect::Axes,
     body::{Form, Solid},
 };
-use crate::report::view::View;
+use crate::view::View;
 use nalgebra::Vector3;
 
 /// Around what is free, over its size: room for loads and the ends of supports.

@@ -5,7 +5,7 @@ use super::{
     projection::Projection,
     sheet::Sheet,
 };
-use crate::report::view::View;
+use crate::view::View;
 use std::fmt::Write;
 
 /// The look of the surface and its line.

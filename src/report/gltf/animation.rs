@@ -1,7 +1,7 @@
 //! Mechanisms and films as animations of the nodes of blocks.
 
 use super::{buffer::Buffer, shapes::Shapes};
-use crate::report::{drawing::sized, view::View};
+use crate::{drawing::sized, view::View};
 use nalgebra::{UnitQuaternion, Vector3};
 use serde_json::{Value, json};
 
@@ -109,8 +109,8 @@ impl Clip<'_> {
             let Some(node) = *node else { continue };
             if (0..self.times.len()).any(|k| hidden(i, k)) {
                 let size = match view.bodies[i].shape {
-                    crate::report::view::ViewShape::Sphere(radius) => radius,
-                    crate::report::view::ViewShape::Surface(_) => 1.0,
+                    crate::view::ViewShape::Sphere(radius) => radius,
+                    crate::view::ViewShape::Surface(_) => 1.0,
                 };
                 let there = |k| Vector3::repeat(if hidden(i, k) { 0.0 } else { size });
                 let sizes: Vec<Vector3<f64>> = (0..self.times.len()).map(there).collect();

@@ -1,7 +1,7 @@
 //! Blocks, lines of thrust and members as nodes with meshes.
 
 use super::buffer::{Buffer, VERTICES};
-use crate::report::{
+use crate::{
     view::{Body, Surface, View, ViewShape},
     vtk::ball,
 };

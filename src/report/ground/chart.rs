@@ -1,7 +1,7 @@
 //! Two panels: what moves, and the ground below it.
 
 use super::{GroundError, refused};
-use crate::number::short;
+use base::number::short;
 use plotters::{
     prelude::{
         ChartBuilder, DrawingArea, IntoDrawingArea, PathElement, RGBColor, SVGBackend, WHITE,
@@ -60,7 +60,7 @@ fn panel(
     let mut builder = ChartBuilder::on(area);
     builder.margin(10).x_label_area_size(38).y_label_area_size(76);
     if let Some(title) = title {
-        builder.caption(crate::plain::cell(title), ("sans-serif", 18));
+        builder.caption(base::plain::cell(title), ("sans-serif", 18));
     }
     // What is left of stepping to zero is zero.
     let tick = |v: f64| if v.abs() < 1e-9 * (high - low) { "0".into() } else { short(v) };

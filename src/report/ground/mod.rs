@@ -7,10 +7,8 @@ mod shaken;
 pub use rocking::Rocked;
 pub use shaken::{ShakenReport, page_charts};
 
-use crate::{
-    ground::{Given, Motion, Record, Recorded, STANDARD_GRAVITY},
-    number::{count, short},
-};
+use base::number::{count, short};
+use check::ground::{Given, Motion, Record, Recorded, STANDARD_GRAVITY};
 use serde_json::{Value, json};
 
 /// A table or chart that cannot be made.
@@ -41,7 +39,7 @@ pub struct Shaking {
 type Counted = (usize, f64, usize);
 
 /// How the ground moves, in a line.
-pub(in crate::report) fn words(given: &Given) -> String {
+pub(crate) fn words(given: &Given) -> String {
     let motion = given.motion().unwrap_or_default();
     match (&given.pulse, &given.record) {
         (Some(pulse), _) => described(&pulse.to_string(), None, given.scale, &motion),

@@ -6,13 +6,13 @@ use super::{
     refused,
 };
 use crate::{
-    analysis::follow::machine::{Built, Exactness},
+    cells::{Cell, Table},
+    text::{Layout, Page, Role, TextOptions},
+};
+use analysis::follow::machine::{Built, Exactness};
+use base::number::{bracketed, count, fixed, point, short};
+use check::{
     ground::Motion,
-    number::{bracketed, count, fixed, point, short},
-    report::{
-        cells::{Cell, Table},
-        text::{Layout, Page, Role, TextOptions},
-    },
     rocking::{Fate, History, Sample, Scan, Sense},
 };
 use serde_json::{Value, json};

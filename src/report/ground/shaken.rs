@@ -6,16 +6,14 @@ use super::{
     refused, rocking,
 };
 use crate::{
-    analysis::ShakenScene,
-    dynamics::Frame,
-    ground::Motion,
-    interface::Model,
-    number::short,
-    report::{
-        cells::{Cell, Table},
-        page::{Axis, Chart, Series},
-    },
+    cells::{Cell, Table},
+    page::{Axis, Chart, Series},
 };
+use analysis::ShakenScene;
+use base::number::short;
+use check::ground::Motion;
+use dynamics::Frame;
+use model::interface::Model;
 
 /// So many lines are drawn.
 const LINES: usize = 5;

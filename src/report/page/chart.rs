@@ -1,14 +1,12 @@
 //! Charts as data; the page draws them, with values where one points.
 
 use crate::{
-    analysis::{Attempt, repose::seen::Seen},
-    number::{seconds, short},
-    proof::ResultFile,
-    report::{
-        heaps::ReposeFile,
-        path::{curves, happens, held_by, parameter},
-    },
+    heaps::ReposeFile,
+    path::{curves, happens, held_by, parameter},
 };
+use analysis::{Attempt, repose::seen::Seen};
+use base::number::{seconds, short};
+use check::proof::ResultFile;
 use serde::Serialize;
 
 /// A chart.

@@ -1,7 +1,7 @@
 //! The words of an answer, as printed on a terminal, as HTML: what is said there is said here.
 
-use crate::plain::markup;
-use crate::report::text::{Page, Role, Span};
+use crate::text::{Page, Role, Span};
+use base::plain::markup;
 
 /// Rows about the solver and its work, which are folded together.
 const INTERNALS: [&str; 4] = ["left out", "time", "work", "attempts"];

@@ -1,6 +1,6 @@
 //! Text inside HTML.
 
-use crate::plain::document;
+use base::plain::document;
 use serde_json::Value;
 
 /// JSON as it may stand in a `script` element of type `application/json`: nothing in it ends the
@@ -48,7 +48,7 @@ pub(super) fn fill(template: &str, values: &[(&str, &str)]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plain::markup;
+    use base::plain::markup;
 
     const HOSTILE: &str = "</script><img src=x onerror='alert(1)'>&\"<!--";
 

@@ -2,12 +2,10 @@
 
 use super::{BASE, CHARTS, Chart, PICTURE, SCENE, STYLE, TEMPLATE, facts, html, pack};
 use crate::{
-    plain::markup,
-    report::{
-        text::Page,
-        view::{Course, View},
-    },
+    text::Page,
+    view::{Course, View},
 };
+use base::plain::markup;
 use nalgebra::Vector3;
 use serde_json::{Value, json};
 

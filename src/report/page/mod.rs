@@ -21,7 +21,7 @@ pub use study::{extreme, omissions, study};
 pub use sweep::sweep;
 
 use super::{record::Record, text::Page, view::View};
-use crate::plain::markup;
+use base::plain::markup;
 use serde_json::json;
 
 const TEMPLATE: &str = include_str!("assets/page.html");

@@ -5,12 +5,12 @@
 //! greatest one, so that single precision has seven digits of each whatever the units of the scene.
 
 use crate::{
-    interface::ContactKind,
-    report::drawing,
-    report::view::{Course, View, ViewMotion, ViewShape, ViewState},
-    verdict::mechanism::JointMotion as Kind,
+    drawing,
+    view::{Course, View, ViewMotion, ViewShape, ViewState},
 };
+use check::verdict::mechanism::JointMotion as Kind;
 use data_encoding::BASE64;
+use model::interface::ContactKind;
 use nalgebra::Vector3;
 use serde_json::{Value, json};
 
@@ -133,7 +133,7 @@ fn bodies(view: &View, units: &Units) -> Value {
         view.bodies.iter().filter_map(|b| b.material.as_deref()).collect();
     materials.sort_unstable();
     materials.dedup();
-    let material = |b: &crate::report::view::Body| {
+    let material = |b: &crate::view::Body| {
         b.material.as_deref().and_then(|m| materials.binary_search(&m).ok()).map_or(0, |k| k + 1)
     };
     let surfaces: Vec<_> = view
@@ -220,8 +220,8 @@ fn members(view: &View, units: &Units) -> Value {
 }
 
 /// How a joint resists, in words.
-fn law(law: &crate::assembly::JointLaw) -> String {
-    use crate::number::short;
+fn law(law: &model::assembly::JointLaw) -> String {
+    use base::number::short;
     let mu = law.friction.mu();
     let mut words =
         vec![if mu.is_finite() { format!("friction {}", short(mu)) } else { "no sliding".into() }];
@@ -242,7 +242,7 @@ fn law(law: &crate::assembly::JointLaw) -> String {
 /// Resultants are the sums of the forces, which the page adds up. A share of the section that is
 /// not a number: nothing presses.
 fn state(s: &ViewState, joints: usize, units: &Units) -> Value {
-    let of = |f: &dyn Fn(&crate::report::view::Resultant) -> f64| {
+    let of = |f: &dyn Fn(&crate::view::Resultant) -> f64| {
         singles(s.resultants.iter().map(|r| r.as_ref().map_or(f64::NAN, f)))
     };
     let at: Vec<Vector3<f64>> =

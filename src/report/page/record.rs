@@ -1,9 +1,7 @@
 //! The record of an assessment as HTML: without scripts, so that it prints as it stands.
 
-use crate::{
-    plain::markup,
-    report::record::{Part, Record, Section},
-};
+use crate::record::{Part, Record, Section};
+use base::plain::markup;
 
 /// What was asked, above the answer in words.
 pub(super) fn asked(record: &Record) -> String {

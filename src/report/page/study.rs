@@ -2,16 +2,14 @@
 //! sort.
 
 use super::{Axis, Chart, Series, tables};
-use crate::{
-    number::{seconds, short},
-    report::{study::ANSWER, text::Page},
-    study::{
-        Omission, StudyMethod, StudyPoint,
-        extreme::{CellAnswer, CellQuestion},
-        profile,
-    },
-};
+use crate::{study::ANSWER, text::Page};
+use base::number::{seconds, short};
 use serde_json::{Value, json};
+use sweep::study::{
+    Omission, StudyMethod, StudyPoint,
+    extreme::{CellAnswer, CellQuestion},
+    profile,
+};
 
 /// Errors below this are drawn here: rounding.
 const FLOOR: f64 = 1e-15;

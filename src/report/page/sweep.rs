@@ -3,14 +3,12 @@
 
 use super::{Axis, Chart, Series, tables};
 use crate::{
-    number::short,
-    report::{
-        sweep::group::{Group, bands, cells, mark, marks},
-        text::Page,
-    },
-    sweep::{Fragility, Header, Row, Shown, Summary},
+    sweep::group::{Group, bands, cells, mark, marks},
+    text::Page,
 };
+use base::number::short;
 use serde_json::{Value, json};
+use sweep::{Fragility, Header, Row, Shown, Summary};
 
 /// So many numbers have a chart of their own, those that matter most.
 const CHARTS: usize = 4;
@@ -71,7 +69,7 @@ impl All<'_> {
 
     /// What stands for a group, in words.
     fn says(&self, group: &Group) -> String {
-        let rows = crate::number::count(group.rows, "row");
+        let rows = base::number::count(group.rows, "row");
         match (group.shown, mark(&self.header.plan.question, group.shown)) {
             (Shown::Value(mean), _) if group.rows > 1 => format!(
                 "mean {}, from {} to {} ({rows})",
@@ -274,7 +272,7 @@ fn table(header: &Header, rows: &[Row]) -> Value {
         let mut cells: Vec<Value> = vec![json!(r.row)];
         cells.extend(r.parameters.iter().map(|v| json!(v)));
         cells.extend([json!(a.status.word()), json!(a.value), json!(a.lower), json!(a.upper)]);
-        cells.extend(directions.then(|| json!(a.toward.map(crate::number::point))));
+        cells.extend(directions.then(|| json!(a.toward.map(base::number::point))));
         cells.extend(errors.then(|| json!(r.error)));
         cells.push(json!(r.seconds));
         cells

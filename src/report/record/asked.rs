@@ -1,7 +1,7 @@
 //! What was asked, and what the number of the answer means.
 
-use crate::{
-    number::{bracketed, count, ends, fixed, short},
+use base::number::{bracketed, count, ends, fixed, short};
+use check::{
     proof::{
         result::{QuestionKind as Kind, ResultFile},
         state::StateAnswer,

@@ -1,13 +1,10 @@
 //! Heaps that came to rest, one a seed.
 
 use super::{Part, Record, Section};
-use crate::{
-    number::{count, short},
-    proof::result::Versions,
-    report::heaps::{HeapResult, ReposeFile},
-    scene::ProtocolKind,
-    terms::Outcome,
-};
+use crate::heaps::{HeapResult, ReposeFile};
+use base::number::{count, short};
+use check::{proof::result::Versions, terms::Outcome};
+use scene::ProtocolKind;
 use serde_json::Value;
 
 /// Of the values of a protocol.

@@ -8,9 +8,9 @@
 //! ([`edge_bounds`]), which on a rectangle bent about one axis is N / (A (1 − 2 e / t)).
 
 use super::{Part, Section, percent, quantity};
-use crate::{
+use crate::view::{Joint, Resultant, View, ViewPart, ViewState};
+use model::{
     interface::{Interface, Model},
-    report::view::{Joint, Resultant, View, ViewPart, ViewState},
     strength::crushing::{crushes, edge_bounds},
 };
 use nalgebra::Vector3;

@@ -1,10 +1,10 @@
 //! How joints resist, and what tells that blocks touch.
 
 use super::{Part, Section, quantity};
-use crate::{
-    assembly::JointLaw, interface::Model, number::short, proof::result::ResultFile,
-    report::view::View,
-};
+use crate::view::View;
+use base::number::short;
+use check::proof::result::ResultFile;
+use model::{assembly::JointLaw, interface::Model};
 
 /// One row for each law of resistance.
 pub(super) fn section(model: &Model, view: &View) -> Option<Section> {

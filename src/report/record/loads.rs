@@ -1,7 +1,9 @@
 //! Loads beside the weight, and members.
 
 use super::{Part, Section, listed, quantity};
-use crate::{interface::Model, number::point, report::view::View};
+use crate::view::View;
+use base::number::point;
+use model::interface::Model;
 use nalgebra::Vector3;
 
 /// Loads that are listed, and members.
@@ -23,7 +25,7 @@ fn loads(model: &Model, view: &View, idle: bool) -> Vec<Part> {
     for (live, title) in [(false, "Dead loads"), (true, "Live loads (× λ)")] {
         let there = || view.loads.iter().filter(move |l| l.live == live);
         let sum: Vector3<f64> = there().map(|l| l.force).sum();
-        let row = |l: &crate::report::view::ViewLoad| {
+        let row = |l: &crate::view::ViewLoad| {
             vec![
                 model.assembly.blocks.get(l.body).map_or(String::new(), |b| b.id.clone()),
                 point(l.at.into()),
@@ -50,7 +52,7 @@ fn loads(model: &Model, view: &View, idle: bool) -> Vec<Part> {
 }
 
 fn members(view: &View) -> Part {
-    let row = |m: &crate::report::view::ViewMember| {
+    let row = |m: &crate::view::ViewMember| {
         let ends: Vec<String> = m.points.iter().map(|p| point((*p).into())).collect();
         let force = match (m.force, m.slack) {
             (_, true) => "slack".into(),

@@ -15,11 +15,9 @@ mod proof;
 pub use date::date;
 
 use super::view::View;
-use crate::{
-    interface::Model,
-    proof::result::{QuestionKind, ResultFile},
-    report::drawing::{self, Aspect},
-};
+use crate::drawing::{self, Aspect};
+use check::proof::result::{QuestionKind, ResultFile};
+use model::interface::Model;
 
 /// A record, section by section.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -150,7 +148,7 @@ fn quantity(value: f64, unit: &str) -> String {
         s if s >= 1e3 => (1e3, "k"),
         _ => (1.0, ""),
     };
-    format!("{} {prefix}{unit}", crate::number::short(value / by))
+    format!("{} {prefix}{unit}", base::number::short(value / by))
 }
 
 /// A share in per cent, with as many digits as it takes to tell it from all.

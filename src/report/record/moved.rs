@@ -1,11 +1,9 @@
 //! How far blocks moved on ground that moved.
 
 use super::{Part, Section, listed};
-use crate::{
-    number::{fixed, short},
-    proof::result::ResultFile,
-    report::ground,
-};
+use crate::ground;
+use base::number::{fixed, short};
+use check::proof::result::ResultFile;
 
 /// Blocks that are listed.
 const MOST: usize = 24;
@@ -15,13 +13,13 @@ pub(super) fn sections(file: &ResultFile) -> Vec<Section> {
     let Some(a) = file.answer.shaken() else { return Vec::new() };
     let facts = vec![
         ["motion".into(), ground::words(&a.asked.ground)],
-        ["towards".into(), crate::number::point(a.toward)],
+        ["towards".into(), base::number::point(a.toward)],
         [
             "steps".into(),
             format!("{} of {} s, {} substeps each", a.steps, short(a.step), a.substeps),
         ],
     ];
-    let row = |b: &crate::proof::shaken::ShakenBlock| {
+    let row = |b: &check::proof::shaken::ShakenBlock| {
         vec![
             b.block.clone(),
             short(b.thickness),

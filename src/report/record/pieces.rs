@@ -1,10 +1,8 @@
 //! Blocks, materials and supports.
 
 use super::{Part, Section, listed, quantity};
-use crate::{
-    interface::Model,
-    number::{count, point, short},
-};
+use base::number::{count, point, short};
+use model::interface::Model;
 use std::collections::BTreeMap;
 
 /// Supports that are listed.

@@ -1,7 +1,8 @@
 //! Why the answer is to be believed, and what made it.
 
 use super::{Part, Section};
-use crate::{number::short, proof::result::ResultFile, verdict::exact::Grade};
+use base::number::short;
+use check::{proof::result::ResultFile, verdict::exact::Grade};
 
 /// The proof as it was found when the answer was given, and versions.
 pub(super) fn sections(file: &ResultFile) -> Vec<Section> {

@@ -1,6 +1,5 @@
 //! Charts of studies as SVG: error against time on logarithmic axes, and the performance profile.
 
-use crate::study::{StudyMethod, StudyPoint, profile};
 use plotters::{
     coord::Shift,
     prelude::{
@@ -9,6 +8,7 @@ use plotters::{
     },
     style::{Color, IntoFont},
 };
+use sweep::study::{StudyMethod, StudyPoint, profile};
 
 /// A chart that cannot be drawn.
 #[derive(Debug, thiserror::Error)]

@@ -4,7 +4,7 @@ use super::super::{
     cells::{Table, row},
     text::{Layout, Page, Role},
 };
-use crate::study::cross::{CrossCount, Crossed, Differs, FAMILIES, count};
+use sweep::study::cross::{CrossCount, Crossed, Differs, FAMILIES, count};
 
 /// How many scenes are named where not all are asked for.
 const NAMED: usize = 8;

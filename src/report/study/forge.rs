@@ -4,8 +4,8 @@ use super::super::{
     cells::{Table, row},
     text::{Layout, Page, Role},
 };
-use crate::study::forge::Forged;
 use std::collections::BTreeMap;
+use sweep::study::forge::Forged;
 
 /// How many forgeries are named where not all are asked for.
 const NAMED: usize = 12;

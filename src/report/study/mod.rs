@@ -18,7 +18,7 @@ use super::{
     cells::{Table, row},
     text::{Layout, Page, Role},
 };
-use crate::study::{
+use sweep::study::{
     Omission, StudyMethod, StudyPoint,
     extreme::{CellAnswer, CellCount, CellGrade, count},
 };
@@ -128,13 +128,13 @@ pub fn text(points: &[StudyPoint], layout: Layout) -> Page {
                 let at = if method.knob().is_empty() {
                     String::new()
                 } else {
-                    format!(", {} {}", method.knob(), crate::number::short(best.knob))
+                    format!(", {} {}", method.knob(), base::number::short(best.knob))
                 };
                 Some(format!(
                     "{:<28} {:>8}  {}{at}",
                     method.label(),
                     shown(best.error),
-                    crate::number::seconds(best.seconds)
+                    base::number::seconds(best.seconds)
                 ))
             })
             .collect();
@@ -148,7 +148,7 @@ pub fn text(points: &[StudyPoint], layout: Layout) -> Page {
                 p.scene,
                 p.method.label(),
                 p.method.knob(),
-                crate::number::short(p.knob),
+                base::number::short(p.knob),
                 shown(p.error)
             )
         }),
@@ -166,7 +166,7 @@ pub fn omissions_text(list: &[Omission], layout: Layout) -> Page {
     page.title("What omissions save", title, Role::Value);
     page.blank();
     for o in list {
-        let seconds = o.seconds.map(crate::number::seconds);
+        let seconds = o.seconds.map(base::number::seconds);
         let same = o.difference().map_or("one of them did not come out".into(), |d| {
             format!("answers differ by {d:.0e}")
         });

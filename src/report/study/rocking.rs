@@ -7,10 +7,8 @@ use super::{
     },
     chart::{StudyChartError, dots},
 };
-use crate::{
-    number::seconds,
-    study::{RockingMethod, RockingPoint},
-};
+use base::number::seconds;
+use sweep::study::{RockingMethod, RockingPoint};
 
 /// A table of every point.
 ///

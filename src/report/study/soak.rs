@@ -4,10 +4,8 @@ use super::super::{
     cells::{Table, row},
     text::{Layout, Page, Role},
 };
-use crate::{
-    study::soak::{FAMILIES, Perturbation, SoakCount, Soaked, count},
-    verdict::Verdict,
-};
+use check::verdict::Verdict;
+use sweep::study::soak::{FAMILIES, Perturbation, SoakCount, Soaked, count};
 
 /// The perturbations, in the order of the table.
 const PERTURBATIONS: [Perturbation; 6] = [

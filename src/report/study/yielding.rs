@@ -7,10 +7,8 @@ use super::{
     },
     chart::{StudyChartError, dots},
 };
-use crate::{
-    number::seconds,
-    study::{YieldingMethod, YieldingPoint},
-};
+use base::number::seconds;
+use sweep::study::{YieldingMethod, YieldingPoint};
 
 /// A table of every point.
 ///

@@ -1,10 +1,9 @@
 //! Charts of sweeps as SVG: the value against one number, against two, and the fragility curve.
 
 use super::group::{Group, bands, cells, mark, marks};
-use crate::{
+use base::{
     number::{count, short},
     plain::document,
-    sweep::{Fragility, Header, Plan, Row, Shown, Summary, Vary, is_sample},
 };
 use plotters::{
     coord::{Shift, cartesian::Cartesian2d, types::RangedCoordf64},
@@ -14,6 +13,7 @@ use plotters::{
     },
     style::{Color, IntoFont},
 };
+use sweep::{Fragility, Header, Plan, Row, Shown, Summary, Vary, is_sample};
 
 /// What is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

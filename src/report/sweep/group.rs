@@ -1,14 +1,12 @@
 //! Values of a sweep by one or two of its numbers: what charts draw. Every row is in it, those
 //! without a value too.
 
-use crate::{
-    analysis::Question,
-    sweep::{Sampling, Shown, groups, same},
-};
+use analysis::Question;
+use sweep::{Sampling, Shown, groups, same};
 
 /// The rows whose number is alike, or whose two numbers are.
 #[derive(Clone, Debug, PartialEq)]
-pub(in crate::report) struct Group {
+pub(crate) struct Group {
     /// Mean of the number; of two the middle of the cell.
     pub at: [f64; 2],
     /// Half the width and height of the cell of two numbers.
@@ -43,7 +41,7 @@ impl Group {
 
 /// Groups of rows with like values of one number; in a grid, whose values were chosen one by one,
 /// with equal ones.
-pub(in crate::report) fn bands(xs: &[f64], shown: &[Shown], sampling: &Sampling) -> Vec<Group> {
+pub(crate) fn bands(xs: &[f64], shown: &[Shown], sampling: &Sampling) -> Vec<Group> {
     let is_grid = matches!(sampling, Sampling::Grid {});
     let groups = if is_grid { same(xs) } else { groups(xs) };
     groups
@@ -70,7 +68,7 @@ fn borders(xs: &[f64], groups: &[Vec<usize>]) -> Vec<f64> {
 }
 
 /// The cells that hold a row, column by column.
-pub(in crate::report) fn cells(xs: &[f64], ys: &[f64], shown: &[Shown]) -> Vec<Group> {
+pub(crate) fn cells(xs: &[f64], ys: &[f64], shown: &[Shown]) -> Vec<Group> {
     let (columns, lines) = (groups(xs), groups(ys));
     let (bx, by) = (borders(xs, &columns), borders(ys, &lines));
     let place = |groups: &[Vec<usize>]| {
@@ -98,10 +96,7 @@ pub(in crate::report) fn cells(xs: &[f64], ys: &[f64], shown: &[Shown]) -> Vec<G
 }
 
 /// What rows without a value are called, and the colour they have (red, green, blue).
-pub(in crate::report) fn mark(
-    question: &Question,
-    shown: Shown,
-) -> Option<(&'static str, [u8; 3])> {
+pub(crate) fn mark(question: &Question, shown: Shown) -> Option<(&'static str, [u8; 3])> {
     match shown {
         Shown::Value(_) => None,
         Shown::Falls => Some(("falls", [200, 30, 45])),
@@ -115,7 +110,7 @@ pub(in crate::report) fn mark(
 }
 
 /// The marks that occur, the gravest first, each with how many rows show it by themselves.
-pub(in crate::report) fn marks(rows: &[Shown]) -> Vec<(Shown, usize)> {
+pub(crate) fn marks(rows: &[Shown]) -> Vec<(Shown, usize)> {
     [Shown::Falls, Shown::Error, Shown::Undecided, Shown::Unlimited]
         .into_iter()
         .map(|kind| (kind, rows.iter().filter(|s| **s == kind).count()))

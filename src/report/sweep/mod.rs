@@ -1,16 +1,14 @@
 //! Sweeps as text, table and chart.
 
 mod chart;
-pub(in crate::report) mod group;
+pub(crate) mod group;
 mod progress;
 mod table;
 mod text;
 
-use crate::{
-    analysis::Question,
-    sweep::{Header, Summary},
-};
+use analysis::Question;
 use serde::Serialize;
+use sweep::{Header, Summary};
 
 pub use chart::{ChartError, Kind, chart};
 pub use progress::{SweepProgress, progress};

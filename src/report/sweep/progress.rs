@@ -1,12 +1,10 @@
 //! How far a sweep is, as a page and as JSON (`"format": "voussoir-progress/1"`).
 
-use crate::{
-    number::count,
-    report::text::{Layout, Page, Role},
-    sweep::{Header, Row},
-};
+use crate::text::{Layout, Page, Role};
+use base::number::count;
 use serde::Serialize;
 use std::collections::BTreeMap;
+use sweep::{Header, Row};
 
 /// How far a sweep is.
 #[derive(Clone, Debug, Serialize)]

@@ -1,9 +1,7 @@
 //! The rows as a table (CSV, RFC 4180), in the order of their numbers.
 
-use crate::{
-    report::cells::{Cell, Table},
-    sweep::{Header, Parameter, Row},
-};
+use crate::cells::{Cell, Table};
+use sweep::{Header, Parameter, Row};
 
 /// The table: row, the varied numbers, status, value, bracket, how dry friction was found,
 /// direction, error, seconds.

@@ -1,10 +1,8 @@
 //! The summary of a sweep as a page.
 
-use crate::{
-    number::{count, seconds, short},
-    report::text::{Layout, Page, Role},
-    sweep::{Header, LognormalFit, Proportion, Sampling, Summary},
-};
+use crate::text::{Layout, Page, Role};
+use base::number::{count, seconds, short};
+use sweep::{Header, LognormalFit, Proportion, Sampling, Summary};
 
 /// So many numbers are listed by their influence.
 const SHOWN: usize = 5;

@@ -6,15 +6,17 @@ use super::{
     page::{Page, Role},
     simulation,
 };
-use crate::{
-    analysis::{Outcome, coulomb::Found},
-    number::{bracketed, computed, computed_tilt, decimals, ends, moving, moving_tilt, point},
+use analysis::{Outcome, coulomb::Found};
+use base::number::{
+    bracketed, computed, computed_tilt, decimals, ends, moving, moving_tilt, point,
+};
+use check::{
     proof::{
         answer::Answer,
         certificate::DryResult,
         result::{QuestionKind, ResultFile},
     },
-    verdict::{Verdict, check::Claim},
+    verdict::{Verdict, claim::Claim},
 };
 
 /// What is said with the contact tolerances that it rests on, where the scene has widened them.

@@ -1,12 +1,9 @@
 //! What a bridge was computed with.
 
 use super::page::Page;
-use crate::{
-    generate,
-    number::short,
-    proof::result::ResultFile,
-    scene::{OnRoad, Template},
-};
+use base::number::short;
+use check::proof::result::ResultFile;
+use scene::{OnRoad, Template, generate};
 
 /// The parts of the model that can be switched, on or off, of every bridge of the scene; how much of
 /// its width carries what stands on it; whether the ring can crush.

@@ -4,14 +4,16 @@ use super::{
     SHOWN, TextOptions, cut,
     page::{Page, Role},
 };
-use crate::{
-    analysis::critical::Method,
+use analysis::critical::Method;
+use base::{
     number::{bracketed, count, ends, short},
+    tolerance,
+};
+use check::{
     proof::{
         critical::{CriticalResult, CriticalValue, exhausted},
         result::ResultFile,
     },
-    tolerance,
     verdict::Verdict,
 };
 

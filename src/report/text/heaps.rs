@@ -1,12 +1,10 @@
 //! Angles of repose for people.
 
 use super::{Layout, Page, TextOptions, page::Role};
-use crate::{
-    analysis::repose::seen::{Seen, Steady},
-    number::{count, seconds, short},
-    report::heaps::{HeapResult, ReposeFile},
-    scene::ProtocolKind,
-};
+use crate::heaps::{HeapResult, ReposeFile};
+use analysis::repose::seen::{Seen, Steady};
+use base::number::{count, seconds, short};
+use scene::ProtocolKind;
 
 /// The answer about heaps as a page.
 pub fn heaps(file: &ReposeFile, options: TextOptions, layout: Layout) -> Page {

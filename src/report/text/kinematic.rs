@@ -6,9 +6,9 @@ use super::{
     page::{Page, Role},
     path::event,
 };
-use crate::{
+use base::number::{bracketed, computed, ends, point, short};
+use check::{
     kinematic::{Capacity, Elastic, LimitState, Participation, Unique},
-    number::{bracketed, computed, ends, point, short},
     proof::{
         answer::{FactorStatus, LoadFactorAnswer},
         kinematic::KinematicAnswer,
@@ -16,7 +16,7 @@ use crate::{
         result::{Direction, ResultFile},
     },
     terms::{Law, Outcome},
-    verdict::check::Claim,
+    verdict::claim::Claim,
 };
 
 /// So many masses are shown, and so many points of the curve.
@@ -30,7 +30,7 @@ fn seven(v: f64) -> String {
         return "0".into();
     }
     let decimals = (6 - v.abs().max(1e-300).log10().floor() as i32).clamp(0, 12);
-    crate::number::fixed(v, decimals.unsigned_abs() as usize)
+    base::number::fixed(v, decimals.unsigned_abs() as usize)
 }
 
 /// α0 with as many digits as are known.
@@ -125,8 +125,8 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
         };
         page.paragraph(law);
         let slides = file.mechanism.as_ref().is_some_and(|m| m.joints.iter().any(slides));
-        if slides && a.alpha0.found != Some(crate::terms::Found::NothingSlides) {
-            let whose = if a.alpha0.found == Some(crate::terms::Found::FixedPoint) {
+        if slides && a.alpha0.found != Some(check::terms::Found::NothingSlides) {
+            let whose = if a.alpha0.found == Some(check::terms::Found::FixedPoint) {
                 "δ, e* and M* are those of the mechanism with dry friction, not of the one that is shown."
             } else {
                 "δ, e* and M* are those of the mechanism that is shown, in which joints open as they slide."
@@ -185,8 +185,8 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
     }
 }
 
-fn slides(j: &crate::proof::result::JointWords) -> bool {
-    use crate::verdict::mechanism::JointMotion;
+fn slides(j: &check::proof::result::JointWords) -> bool {
+    use check::verdict::mechanism::JointMotion;
     matches!(j.motion, JointMotion::Slide | JointMotion::HingeAndSlide)
 }
 
@@ -304,9 +304,9 @@ fn masses(p: &Participation) -> Vec<String> {
         .iter()
         .map(|m| {
             let kind = match m.kind {
-                crate::kinematic::MassKind::Block => "P",
-                crate::kinematic::MassKind::Rests => "P on",
-                crate::kinematic::MassKind::Pushes => "Q on",
+                check::kinematic::MassKind::Block => "P",
+                check::kinematic::MassKind::Rests => "P on",
+                check::kinematic::MassKind::Pushes => "Q on",
             };
             format!(
                 "{kind} {}: {} N at {}, δ = {}",
@@ -328,7 +328,7 @@ fn limit_states(c: &Capacity) -> Vec<String> {
             seven(s.period)
         )
     };
-    let both = |name: &str, s: crate::kinematic::States| {
+    let both = |name: &str, s: check::kinematic::States| {
         [
             format!("{name}, {}", state("SLV", 0.4, 1.68, s.slv)),
             format!("{name}, {}", state("SLC", 0.6, 1.56, s.slc)),
@@ -365,7 +365,7 @@ fn spectra(file: &ResultFile) -> Vec<String> {
             b.storeys,
             short(b.height),
             short(b.z),
-            short(b.damping_percent.unwrap_or(crate::kinematic::DAMPING))
+            short(b.damping_percent.unwrap_or(check::kinematic::DAMPING))
         ));
     }
     lines

@@ -1,7 +1,7 @@
 //! Contacts that were left out, and what the answer is with them.
 
-use crate::{
-    number::{fixed, short},
+use base::number::{fixed, short};
+use check::{
     proof::result::{QuestionKind, ResultFile},
     terms::{Closed, ClosedAnswer, ClosedEnd, Difference, Law, Outcome},
     verdict::Verdict,

@@ -1,8 +1,8 @@
 //! The mechanism in words.
 
 use super::{SHOWN, TextOptions, cut, page::Page};
-use crate::{
-    number::{count, point, short},
+use base::number::{count, point, short};
+use check::{
     proof::{
         member::{MemberLine, MemberState},
         result::{JointWords, ResultFile},

@@ -2,7 +2,7 @@
 
 mod answer;
 mod bridge;
-mod check;
+mod checked;
 mod critical;
 mod heaps;
 mod kinematic;
@@ -21,23 +21,21 @@ mod template;
 mod thrust;
 mod verdict;
 
-pub use check::{inspection, verification};
+pub use checked::{inspection, verification};
 pub use heaps::heaps;
 pub use left_out::left_out;
 pub use packing::packing;
 pub use page::{Layout, Page, Role, Span};
 pub use template::template;
 
-use crate::proof::{
+use analysis::Attempt;
+use base::number::{count, seconds};
+use check::proof::{
     result::{QuestionKind, ResultFile},
     work::Work,
 };
-use crate::{
-    analysis::Attempt,
-    number::{count, seconds},
-    solve::Engine,
-    verdict::Verdict,
-};
+use check::verdict::Verdict;
+use solve::Engine;
 
 /// How much is said.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -1,17 +1,19 @@
 //! Trains for people: where the least load factor is, and what it is elsewhere.
 
 use super::{TextOptions, cut, page::Page};
-use crate::{
+use base::{
     number::{self, bracketed, computed, count, short},
+    tolerance,
+};
+use check::{
     proof::{
         answer::FactorStatus,
         moving::MovingAnswer,
         result::{Direction, ResultFile},
     },
     terms::Found,
-    tolerance,
-    train::{self, Position},
 };
+use model::train::{self, Position};
 
 /// So many positions are shown.
 const POSITIONS: usize = 12;

@@ -1,15 +1,13 @@
 //! Packings for people: the least tilt, every direction, and how the packing carries its load.
 
 use super::{Layout, Page, SHOWN, TextOptions, cut, page::Role};
-use crate::{
-    analysis::{
-        Fabric, Outcome,
-        coulomb::Found,
-        fabric::{FORCE_BIN, FORCE_BINS},
-    },
-    number::{bracketed, computed_tilt, count, point, seconds, short},
-    proof::packing::{PackingDirection, PackingFile},
+use analysis::{
+    Fabric, Outcome,
+    coulomb::Found,
+    fabric::{FORCE_BIN, FORCE_BINS},
 };
+use base::number::{bracketed, computed_tilt, count, point, seconds, short};
+use check::proof::packing::{PackingDirection, PackingFile};
 
 /// The answer about a packing as a page.
 pub fn packing(file: &PackingFile, options: TextOptions, layout: Layout) -> Page {

@@ -1,7 +1,7 @@
 //! Lines of text whose parts say what they are. How they look (colour, weight) is decided where
 //! they are shown.
 
-use crate::plain::printable;
+use base::plain::printable;
 use std::{borrow::Cow, fmt};
 
 /// Sentences are broken to lines of this many characters where nobody says how many there is room
@@ -67,7 +67,7 @@ pub struct Page {
 }
 
 impl Page {
-    pub(in crate::report) fn new(layout: Layout) -> Self {
+    pub(crate) fn new(layout: Layout) -> Self {
         Self {
             lines: Vec::new(),
             unnamed: layout.unnamed.to_string(),
@@ -75,7 +75,7 @@ impl Page {
         }
     }
 
-    pub(in crate::report) fn title(&mut self, name: &str, answer: impl Into<String>, role: Role) {
+    pub(crate) fn title(&mut self, name: &str, answer: impl Into<String>, role: Role) {
         let name = printable(if name.is_empty() { &self.unnamed } else { name }).into_owned();
         let answer = span(answer, role);
         let line = if name.is_empty() {
@@ -99,18 +99,18 @@ impl Page {
         });
     }
 
-    pub(in crate::report) fn blank(&mut self) {
+    pub(crate) fn blank(&mut self) {
         self.lines.push(Vec::new());
     }
 
-    pub(in crate::report) fn paragraph(&mut self, text: &str) {
+    pub(crate) fn paragraph(&mut self, text: &str) {
         for line in wrap(&printable(text), self.width - 2) {
             self.lines.push(vec![span(format!("  {line}"), Role::Plain)]);
         }
     }
 
     /// A labelled row; further items stand below the first.
-    pub(in crate::report) fn row(&mut self, label: &str, items: impl IntoIterator<Item = String>) {
+    pub(crate) fn row(&mut self, label: &str, items: impl IntoIterator<Item = String>) {
         let mut label = label;
         for item in items {
             for line in wrap(&printable(&item), self.width - COLUMN) {

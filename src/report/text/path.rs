@@ -4,14 +4,14 @@ use super::{
     TextOptions, cut,
     page::{Page, Role},
 };
-use crate::{
-    number::{bracketed, count, fixed, moving, point, short},
+use crate::path::{along, bound, happens};
+use base::number::{bracketed, count, fixed, moving, point, short};
+use check::{
     proof::{
         path::{DrivenBy, PathEvent, PathEventKind, PathPoint, PathResult, PathStatus},
         result::{QuestionKind, ResultFile},
     },
-    report::path::{along, bound, happens},
-    verdict::check::Claim,
+    verdict::claim::Claim,
 };
 
 /// So many points are shown.

@@ -1,12 +1,10 @@
 //! Mechanisms on ground that moves, as results have them.
 
 use super::page::{Page, Role};
-use crate::{
-    number::{bracketed, count, fixed, point, short},
-    proof::{
-        result::ResultFile,
-        rocking::{RockingAnswer, RockingFate, RockingSense},
-    },
+use base::number::{bracketed, count, fixed, point, short};
+use check::proof::{
+    result::ResultFile,
+    rocking::{RockingAnswer, RockingFate, RockingSense},
 };
 
 /// The first line.

@@ -4,13 +4,13 @@ use super::{
     TextOptions,
     page::{Page, Role},
 };
-use crate::{
-    number::{count, fixed, seconds, short},
+use crate::ground;
+use base::number::{count, fixed, seconds, short};
+use check::{
     proof::{
         result::ResultFile,
         shaken::{ShakenAnswer, ShakenWord},
     },
-    report::ground,
     terms::Stop,
 };
 

@@ -4,14 +4,16 @@ use super::{
     TextOptions, cut,
     page::{Page, Role},
 };
-use crate::{
-    analysis::Agreement,
-    dynamics::{Fate, Fidelity, Run, Stop},
+use analysis::Agreement;
+use base::{
     error::FindingCode,
     number::{count, point, seconds, short},
+};
+use check::{
     proof::{Simulation, result::ResultFile},
     verdict::Verdict,
 };
+use dynamics::{Fate, Fidelity, Run, Stop};
 
 /// So many blocks of a first motion are shown.
 const SHOWN: usize = 4;

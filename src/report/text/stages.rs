@@ -4,8 +4,8 @@ use super::{
     TextOptions, cut,
     page::{Page, Role},
 };
-use crate::{
-    number::{bracketed, computed, count, point, short},
+use base::number::{bracketed, computed, count, point, short};
+use check::{
     proof::{
         answer::{FactorStatus, LoadFactorAnswer},
         result::ResultFile,

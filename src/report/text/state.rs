@@ -4,8 +4,8 @@ use super::{
     TextOptions, cut,
     page::{Page, Role},
 };
-use crate::{
-    number::{fixed, point, short},
+use base::number::{fixed, point, short};
+use check::{
     proof::{
         result::ResultFile,
         state::{Event, JointAnswer},
@@ -37,7 +37,7 @@ pub(super) fn title(file: &ResultFile) -> (String, Role) {
     let rest = format!(
         "at rest, displaced by up to {} m ({})",
         short(g.displacement),
-        crate::plain::cell(&g.block)
+        base::plain::cell(&g.block)
     );
     match &a.load_factor {
         None => (rest, Role::Good),
@@ -108,14 +108,14 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
         page.row("conditions", conditions(r));
     }
     if let Some(g) = &a.greatest {
-        let pair = g.between.clone().map(|id| crate::plain::cell(&id).to_string()).join(" | ");
+        let pair = g.between.clone().map(|id| base::plain::cell(&id).to_string()).join(" | ");
         page.row(
             "greatest",
             [
                 format!(
                     "displacement {} m, of {}",
                     short(g.displacement),
-                    crate::plain::cell(&g.block)
+                    base::plain::cell(&g.block)
                 ),
                 format!("pressure {} Pa, in {pair}", short(g.pressure)),
                 format!("opening {} m, slip {} m", short(g.opening), short(g.slip)),
@@ -133,7 +133,7 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
             let turn = d.rotation.map(|r| if r.abs() > least { r * 1e3 } else { 0.0 });
             format!(
                 "{}: {} m, turned by {} mrad",
-                crate::plain::cell(&d.block),
+                base::plain::cell(&d.block),
                 point(d.displacement),
                 point(turn)
             )
@@ -152,7 +152,7 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
         );
     }
     if let Some(c) = &a.control {
-        page.row("control", [format!("{} at {}", crate::plain::cell(&c.block), point(c.point))]);
+        page.row("control", [format!("{} at {}", base::plain::cell(&c.block), point(c.point))]);
     }
     let curve: Vec<String> = a
         .curve
@@ -180,7 +180,7 @@ fn conditions(r: &Residuals) -> Vec<String> {
 
 /// A joint in a line.
 fn joint(j: &JointAnswer) -> String {
-    let pair = j.between.clone().map(|id| crate::plain::cell(&id).to_string()).join(" | ");
+    let pair = j.between.clone().map(|id| base::plain::cell(&id).to_string()).join(" | ");
     let touch = match (j.touch, j.pressed_share) {
         (Touch::Pressed, _) => "pressed".to_string(),
         (Touch::PartlyOpen, Some(share)) => format!("pressed over {:.1} %", 100.0 * share),
@@ -201,10 +201,10 @@ fn joint(j: &JointAnswer) -> String {
 }
 
 /// An event in a line.
-pub(in crate::report) fn event(e: &Event) -> String {
+pub(crate) fn event(e: &Event) -> String {
     let name = match (&e.between, &e.member) {
-        (Some(pair), _) => pair.clone().map(|id| crate::plain::cell(&id).to_string()).join(" | "),
-        (None, member) => crate::plain::cell(member.as_deref().unwrap_or_default()).to_string(),
+        (Some(pair), _) => pair.clone().map(|id| base::plain::cell(&id).to_string()).join(" | "),
+        (None, member) => base::plain::cell(member.as_deref().unwrap_or_default()).to_string(),
     };
     let what = match e.kind {
         EventKind::Opens => "opens at an edge",

@@ -1,6 +1,5 @@
 //! The parameters of a template, as the schema of scenes words them.
 
-use crate::scene;
 use serde_json::Value;
 use std::fmt::Write;
 
@@ -8,7 +7,7 @@ use std::fmt::Write;
 const DEPTH: usize = 2;
 
 /// What a template is, and its parameters with units, alternatives and the values that `own` (the
-/// template's own values, as [`crate::generate::default_template`] gives them) has.
+/// template's own values, as [`scene::generate::default_template`] gives them) has.
 pub fn template(name: &str, own: &Value) -> String {
     let schema = scene::schema();
     let kinds = schema["$defs"]["Template"]["oneOf"].as_array().into_iter().flatten();

@@ -4,15 +4,17 @@ use super::{
     TextOptions, cut,
     page::{Page, Role},
 };
-use crate::{
-    analysis::Outcome,
+use analysis::Outcome;
+use base::{
     number::{bracketed, ends, fixed, point, short},
+    tolerance,
+};
+use check::{
     proof::{
         result::ResultFile,
         thrust::{Line, ThrustAnswer, ThrustSection},
     },
     terms::Bound,
-    tolerance,
     verdict::Verdict,
 };
 
@@ -114,7 +116,7 @@ fn factor(t: &ThrustAnswer, file: &ResultFile) -> String {
         (Some(f), _) => match (f.value, f.upper) {
             (Some(v), Some(upper)) => format!(
                 "Geometric safety factor {}: all sections can be shrunk about their centroids by this and still hold a line of thrust (Heyman 1982).",
-                fixed(v, crate::number::decimals(v, f.lower, upper).min(6))
+                fixed(v, base::number::decimals(v, f.lower, upper).min(6))
             ),
             _ => format!(
                 "Geometric safety factor above {}: lines of thrust pass as close to the middle of every section as one likes.",

@@ -1,7 +1,8 @@
 //! The sentences below a verdict.
 
 use super::page::Page;
-use crate::{proof::ResultFile, tolerance, verdict::Verdict};
+use base::tolerance;
+use check::{proof::ResultFile, verdict::Verdict};
 
 /// Why it stands or falls.
 pub(super) fn verdict(page: &mut Page, file: &ResultFile) {

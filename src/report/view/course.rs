@@ -1,15 +1,15 @@
 //! Paths of `settle` and `push` as films: one frame a point of the curve.
 
-use crate::{
-    dynamics::{Fidelity, Frame, Pose},
-    interface::Model,
-    number::{seconds, short},
+use base::number::{seconds, short};
+use check::{
     path::saved::read_poses,
     proof::{
         path::{DrivenBy, PathResult},
         result::ResultFile,
     },
 };
+use dynamics::{Fidelity, Frame, Pose};
+use model::interface::Model;
 use nalgebra::Vector3;
 
 /// What a film goes along.
@@ -79,9 +79,9 @@ impl Course {
 pub fn frames(model: &Model, file: &ResultFile) -> Vec<Frame> {
     let Some(path) = &file.path else { return Vec::new() };
     let blocks = &model.assembly.blocks;
-    let frame = |p: &crate::proof::path::PathPoint| {
+    let frame = |p: &check::proof::path::PathPoint| {
         let poses = read_poses(&model.assembly, &p.poses).ok()?;
-        let pose = |(pose, b): (&crate::assembly::Pose, &crate::assembly::Block)| Pose {
+        let pose = |(pose, b): (&model::assembly::Pose, &model::assembly::Block)| Pose {
             center: b.centroid + pose.shift,
             turn: pose.turn,
             velocity: Vector3::zeros(),

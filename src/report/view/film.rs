@@ -1,7 +1,7 @@
 //! A film of a simulation: a limited number of frames, evenly spread over the time that it took,
 //! whatever that turns out to be.
 
-use crate::dynamics::{Fidelity, Frame};
+use dynamics::{Fidelity, Frame};
 
 /// Frames in a page at most. More: nothing is seen between them.
 const FRAMES: usize = 120;

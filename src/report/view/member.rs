@@ -1,9 +1,9 @@
 //! Members as there is something to see of them.
 
-use crate::{
+use check::proof::{member::MemberState, result::ResultFile};
+use model::{
     assembly::{Action, MemberKind},
     interface::Model,
-    proof::{member::MemberState, result::ResultFile},
 };
 use nalgebra::Vector3;
 
@@ -31,11 +31,11 @@ pub struct ViewMember {
 /// The members of a model.
 pub fn of(model: &Model) -> Vec<ViewMember> {
     // What pushes at one point is held against something else; the last end is what is pushed.
-    let bodies = |m: &crate::assembly::Member| match (m.action.points().len(), m.action.ends()) {
+    let bodies = |m: &model::assembly::Member| match (m.action.points().len(), m.action.ends()) {
         (1, ends) => vec![ends.last().copied().flatten()],
         (_, ends) => ends,
     };
-    let view = |m: &crate::assembly::Member| ViewMember {
+    let view = |m: &model::assembly::Member| ViewMember {
         id: m.id.clone(),
         kind: m.kind,
         points: m.action.points(),

@@ -27,14 +27,14 @@ pub use state::{Resultant, Segment, ViewPart, ViewState};
 pub use surface::{Surface, ViewShape};
 pub use train::positions;
 
-use crate::kinematic::quake;
-use crate::proof::result::{QuestionKind, ResultFile};
-use crate::{
+use base::number::short;
+use check::kinematic::quake;
+use check::proof::result::{QuestionKind, ResultFile};
+use check::verdict::section::centroid;
+use dynamics::Frame;
+use model::{
     assembly::{AppliedForce, JointLaw},
-    dynamics::Frame,
     interface::{ContactKind, Model},
-    number::short,
-    verdict::section::centroid,
 };
 use nalgebra::Vector3;
 
@@ -150,7 +150,7 @@ impl View {
             .answer
             .kinematic()
             .and_then(|a| quake(&file.scene.input, model, Vector3::from(a.toward)).ok());
-        let moved = match (file.answer.moving(), crate::train::Way::of(&file.scene.input, model)) {
+        let moved = match (file.answer.moving(), model::train::Way::of(&file.scene.input, model)) {
             (Some(a), Some(way)) => way.at(a.position()).map_err(|e| ViewError(e.to_string()))?,
             _ => None,
         };

@@ -10,18 +10,18 @@
 //! R. S. Ball, *A Treatise on the Theory of Screws*, Cambridge 1900.
 
 use super::{Body, ViewPart, pressure};
-use crate::{
-    analysis::coulomb::Found,
-    interface::Model,
+use crate::view::ViewShape;
+use analysis::coulomb::Found;
+use check::{
     proof::{certificate::Certificate, result::ResultFile},
-    report::view::ViewShape,
     verdict::{
         Rate,
-        check::Claim,
+        claim::Claim,
         evidence::read_rates,
         mechanism::{self, JointMotion as Kind},
     },
 };
+use model::interface::Model;
 use nalgebra::{UnitQuaternion, Vector3};
 
 /// A mechanism.

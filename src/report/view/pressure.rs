@@ -1,12 +1,12 @@
 //! What presses in joints that yield, and where their blocks go: of a state under its dead load.
 
-use crate::{
-    interface::Model,
-    plane::clip::inside,
+use base::plane::clip::inside;
+use check::{
     proof::state::StateAnswer,
     verdict::Rate,
     yielding::{JointKind, Joints, law::opens},
 };
+use model::interface::Model;
 use nalgebra::Vector3;
 
 /// A pressed part of a joint: a convex polygon, over which pressure is linear.

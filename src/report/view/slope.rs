@@ -1,7 +1,7 @@
 //! The surface of a heap, and supports that stand before what they hold.
 
 use super::{View, ViewShape};
-use crate::analysis::repose::Profile;
+use analysis::repose::Profile;
 use nalgebra::Vector3;
 
 /// The surface of a heap as its slope was read from it.

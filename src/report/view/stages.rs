@@ -1,15 +1,17 @@
 //! Stages of construction as a film, a frame a stage; blocks that can be taken out as colours.
 
 use super::{Course, View};
-use crate::{
-    assembly::{self, Stage},
-    dynamics::{Fidelity, Frame, Pose},
-    interface::Model,
+use check::{
     proof::{
         result::ResultFile,
         stages::{StageResult, StagesResult},
     },
     verdict::Verdict,
+};
+use dynamics::{Fidelity, Frame, Pose};
+use model::{
+    assembly::{self, Stage},
+    interface::Model,
 };
 use nalgebra::{UnitQuaternion, Vector3};
 

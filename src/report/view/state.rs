@@ -1,22 +1,21 @@
 //! Systems of contact forces: resultants, use of the sections, lines of thrust.
 
-use crate::{
-    analysis::{Outcome, coulomb::Found},
-    interface::Model,
-    number::short,
+use analysis::{Outcome, coulomb::Found};
+use base::{number::short, tolerance};
+use check::{
     proof::{
         certificate::Certificate,
         result::{QuestionKind, ResultFile},
     },
-    scene::Friction,
-    tolerance,
     verdict::{
         Forces, Verdict,
         evidence::{ContactForces, read_forces},
         section::sections,
     },
 };
+use model::interface::Model;
 use nalgebra::Vector3;
+use scene::Friction;
 
 /// What a system of forces, or a mechanism, is to the answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! Blocks as surfaces.
 
-use crate::assembly::{Polyhedron, Solid};
+use model::assembly::{Polyhedron, Solid};
 use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet};
 

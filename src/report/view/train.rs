@@ -1,12 +1,12 @@
 //! A train on its way as a film: one frame a position, each with the mechanism that starts there.
 
 use super::{Body, Course, View, ViewMotion, ViewPart};
-use crate::{
-    dynamics::{Fidelity, Frame, Pose},
-    interface::Model,
+use check::{
     proof::result::ResultFile,
-    verdict::{check::Claim, evidence::read_rates},
+    verdict::{claim::Claim, evidence::read_rates},
 };
+use dynamics::{Fidelity, Frame, Pose};
+use model::interface::Model;
 use nalgebra::Vector3;
 
 /// The mechanisms are shown so far along that the farthest corner has come this share of the size of
@@ -31,7 +31,7 @@ impl Course {
 pub fn positions(model: &Model, file: &ResultFile) -> Vec<Frame> {
     let Some(worst) = file.answer.moving() else { return Vec::new() };
     let view = View::bare(model);
-    let frame = |d: &crate::proof::result::Direction| {
+    let frame = |d: &check::proof::result::Direction| {
         let a = d.answer.moving().filter(|a| a.travel == worst.travel)?;
         matches!(d.certificate.claim, Some(Claim::LoadFactor { .. })).then_some(())?;
         let rates = read_rates(&model.assembly, &d.certificate.rates).ok()?;

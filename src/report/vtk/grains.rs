@@ -1,7 +1,7 @@
 //! Grains as points for ParaView, which draws them as balls (filter Glyph, scaled by `radius`).
 
 use super::xml::Xml;
-use crate::report::grains::Row;
+use crate::grains::Row;
 
 /// The file.
 pub fn vtp(rows: &[Row]) -> String {

@@ -1,7 +1,7 @@
 //! Points and cells of a view.
 
 use super::{VtkPart, ball::ball};
-use crate::report::view::{View, ViewShape};
+use crate::view::{View, ViewShape};
 use nalgebra::Vector3;
 
 /// Up to so many balls have 512 triangles, more have 128: a heap of 5,000 grains stays below 50 MB.

@@ -27,7 +27,8 @@ use super::{
     drawing::sized,
     view::{View, ViewPart},
 };
-use crate::{dynamics::Frame, plain::markup};
+use base::plain::markup;
+use dynamics::Frame;
 use mesh::Mesh;
 use nalgebra::Vector3;
 use xml::Xml;

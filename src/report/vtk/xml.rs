@@ -1,6 +1,6 @@
 //! The XML of VTK, numbers as text: exact to the last bit, and legible.
 
-use crate::plain::{markup, printable};
+use base::plain::{markup, printable};
 use nalgebra::Vector3;
 use std::fmt::{Display, Write};
 

@@ -28,7 +28,7 @@ pub struct Bridge {
     pub material: Option<String>,
     /// Members that join its blocks, named without the prefix, with points about its origin.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub members: Vec<crate::scene::Member>,
+    pub members: Vec<crate::Member>,
     /// The spans from left to right.
     pub spans: Vec<BridgeSpan>,
     /// The piers between them, one fewer.

@@ -19,7 +19,7 @@ pub struct Column {
     pub material: Option<String>,
     /// Members that join its blocks, named without the prefix, with points about its origin.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub members: Vec<crate::scene::Member>,
+    pub members: Vec<crate::Member>,
     /// Number of blocks.
     pub blocks: usize,
     /// Size of one block along x, y, z, m.

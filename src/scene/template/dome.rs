@@ -25,7 +25,7 @@ pub struct Dome {
     pub material: Option<String>,
     /// Members that join its blocks, named without the prefix, with points about its origin.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub members: Vec<crate::scene::Member>,
+    pub members: Vec<crate::Member>,
     /// Radius of the mid-surface at the corners, m.
     pub radius: f64,
     /// Thickness along the radius at the corners, m.

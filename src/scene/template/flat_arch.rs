@@ -19,7 +19,7 @@ pub struct FlatArch {
     pub material: Option<String>,
     /// Members that join its blocks, named without the prefix, with points about its origin.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub members: Vec<crate::scene::Member>,
+    pub members: Vec<crate::Member>,
     /// Distance between the abutments at mid-height, m.
     pub span: f64,
     /// Height, m.

@@ -24,7 +24,7 @@ pub struct Portal {
     pub material: Option<String>,
     /// Members that join its blocks, named without the prefix, with points about its origin.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub members: Vec<crate::scene::Member>,
+    pub members: Vec<crate::Member>,
     /// Shape of the intrados; its springing joints must be level.
     #[serde(default, skip_serializing_if = "super::is_default")]
     pub profile: Profile,

@@ -22,7 +22,7 @@ pub struct Tower {
     pub material: Option<String>,
     /// Members that join its blocks, named without the prefix, with points about its origin.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub members: Vec<crate::scene::Member>,
+    pub members: Vec<crate::Member>,
     /// Outer size along x and y, m.
     pub size: [f64; 2],
     /// Thickness of the walls, m.

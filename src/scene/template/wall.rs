@@ -21,7 +21,7 @@ pub struct Wall {
     pub material: Option<String>,
     /// Members that join its blocks, named without the prefix, with points about its origin.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub members: Vec<crate::scene::Member>,
+    pub members: Vec<crate::Member>,
     /// Size of a whole block along x, y, z, m.
     pub size: [f64; 3],
     /// Number of free courses.

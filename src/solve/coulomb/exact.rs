@@ -11,12 +11,12 @@
 
 use super::{newton::Solved, place::Place};
 use crate::{
+    Lu, Pattern,
     deadline::Deadline,
     program::{
         coulomb::Contacts,
         response::{Answer, FrictionLimits, Response},
     },
-    solve::{Lu, Pattern},
 };
 
 /// Most steps. Fewer: states of many joints that stick and slip by turns go back to the fixed

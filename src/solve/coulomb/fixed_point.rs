@@ -2,11 +2,11 @@
 
 use super::{anderson::Anderson, law::Law, newton::Newton, point::FixedPoint};
 use crate::{
+    Session, Settings, Solution,
     program::{
         ConicProgram,
         coulomb::{Contacts, HeldQuantity, Objective},
     },
-    solve::{Session, Settings, Solution},
 };
 
 /// When to stop.

@@ -12,12 +12,12 @@
 
 use super::{newton::dot, point::FixedPoint};
 use crate::{
+    Lu, Pattern,
     deadline::Deadline,
     program::{
         coulomb::Contacts,
         response::{Answer, FrictionLimits, Response},
     },
-    solve::{Lu, Pattern},
 };
 
 /// Most steps to one way. Fewer: walls go back to the limits. More: time lost from afar.

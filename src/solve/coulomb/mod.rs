@@ -5,7 +5,7 @@
 //! the rates where that can be, by an engine where not. [`Exact`] and [`Law`] hold nothing:
 //! Coulomb's law itself, for the state and for the load factor; where none of them gets there, the
 //! state is followed as it comes about (`flow`). What any of them finds is a
-//! candidate; [`crate::analysis::coulomb`] asks the questions and decides.
+//! candidate; `analysis::coulomb` asks the questions and decides.
 
 mod anderson;
 mod exact;

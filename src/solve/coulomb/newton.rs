@@ -5,12 +5,12 @@
 //! each time.
 
 use crate::{
+    Cholesky, Pattern,
     deadline::Deadline,
     program::{
         coulomb::{Contacts, HeldQuantity},
         response::{Answer, FrictionLimits, Response},
     },
-    solve::{Cholesky, Pattern},
 };
 
 /// Most steps. Fewer: scenes of which many contacts open and close go back to the engine, for good
@@ -146,11 +146,11 @@ pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
 mod tests {
     use super::{super::Exact, *};
     use crate::{
-        interface::prepare,
+        self as solve, Settings,
         program::{StaticsOptions, coulomb::Objective},
-        scene::read_str,
-        solve::{self, Settings},
     };
+    use model::interface::prepare;
+    use scene::read_str;
 
     fn norm(a: &[f64]) -> f64 {
         dot(a, a).sqrt()

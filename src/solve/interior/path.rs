@@ -8,7 +8,7 @@ use super::{
     step::{add, kept_inside, share_of_the_way, slack, steps},
     structure::Structure,
 };
-use crate::solve::{Iteration, Settings, Status};
+use crate::{Iteration, Settings, Status};
 use std::time::Instant;
 
 /// A point within this × the tolerance is almost a solution: rounding may allow no more. Larger:

@@ -11,7 +11,7 @@ use super::{
     panels::by_rows,
     structure::Structure,
 };
-use crate::cholesky::{Cholesky, Pattern};
+use cholesky::{Cholesky, Pattern};
 
 /// A pivot below this × the diagonal it started from is rounding: it is replaced by 1. Larger:
 /// flexible structures are held where they should move. Smaller: rounding becomes motion.

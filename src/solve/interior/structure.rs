@@ -7,10 +7,8 @@ use super::{
     cones::{ConeAt, MOST_ROWS},
     panels::Panels,
 };
-use crate::{
-    plane::Sets,
-    program::{Cone, ConicProgram},
-};
+use crate::program::{Cone, ConicProgram};
+use base::plane::Sets;
 
 /// A program taken apart.
 #[derive(Clone, Debug)]

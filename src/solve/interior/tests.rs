@@ -2,15 +2,16 @@
 
 use super::*;
 use crate::{
-    interface::{Model, prepare},
+    EngineSettings, Status,
     program::{
         LiveLoad, Statics, StaticsOptions, Unknowns,
         coulomb::{Contacts, HeldQuantity, Objective},
         load_factor, unbalance,
     },
-    scene::read_str,
-    solve::{EngineSettings, Status, solve},
+    solve,
 };
+use model::interface::{Model, prepare};
+use scene::read_str;
 
 /// A running-bond wall of blocks 1 × 0.5 × 0.4 m on a fixed course.
 fn wall(courses: usize, length: usize, push: [f64; 3]) -> Model {

@@ -7,7 +7,7 @@
 //! not symmetric, and the one that it finds costs three to seven times as much.
 
 use super::super::Pattern;
-use crate::cholesky::{Front as Place, Tree, fronts};
+use cholesky::{Front as Place, Tree, fronts};
 use faer::{
     Accum, MatMut, Par,
     dyn_stack::{MemBuffer, MemStack},
@@ -205,7 +205,7 @@ fn less(to: &mut [f64], by: f64, column: &[f64]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solve::fronts::tests::lattice;
+    use crate::fronts::tests::lattice;
 
     #[test]
     fn what_was_multiplied_comes_back() {

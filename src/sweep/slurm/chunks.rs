@@ -1,6 +1,6 @@
 //! How many tasks.
 
-use crate::tolerance::{SCHEDULING_SHARE, TASK_START};
+use base::tolerance::{SCHEDULING_SHARE, TASK_START};
 
 /// Into how many tasks to cut `rows` rows of `seconds` each, on `cpus` processors a task, where
 /// `slots` tasks run at a time (unknown: `None`) and an array may have `most`.

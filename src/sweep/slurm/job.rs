@@ -1,9 +1,10 @@
 //! What was submitted, kept beside the rows (`job.json`).
 
 use super::states;
-use crate::{
+use crate::keep;
+use base::{
     error::{RowsError, SlurmError},
-    files, keep,
+    files,
 };
 use serde::{Deserialize, Serialize};
 use std::{io::Write, path::Path};

@@ -1,7 +1,7 @@
 //! Slurm's commands: `sbatch`, `squeue`, `sinfo`. Every answer is read with care, every refusal
 //! passed on in Slurm's own words.
 
-use crate::error::SlurmError;
+use base::error::SlurmError;
 use std::{
     collections::BTreeMap,
     path::Path,

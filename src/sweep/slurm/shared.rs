@@ -2,7 +2,7 @@
 //! anything there: the kind of the file system, and whether the nodes are this machine.
 
 use super::hosts;
-use crate::error::SlurmError;
+use base::error::SlurmError;
 use std::path::Path;
 
 /// File systems that lie on disks or in the memory of one machine. What is not named here counts as

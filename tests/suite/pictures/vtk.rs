@@ -8,7 +8,7 @@ use std::{ops::ControlFlow, process::Command};
 use voussoir::{
     dynamics::{Fidelity, SimulationSettings, simulate},
     interface::Model,
-    proof::ResultFile,
+    proof::saved,
     report::{
         view::{Film, View},
         vtk::{collection, moment, vtp},
@@ -201,9 +201,8 @@ fn falling() -> (Model, View) {
         p.moment.iter().for_each(|m| film.see(m));
         ControlFlow::Continue(())
     });
-    let view =
-        View::new(&m, &ResultFile::simulated(&scene, &m, None, &outcome.unwrap()), film.frames())
-            .unwrap();
+    let view = View::new(&m, &saved::simulated(&scene, &m, None, &outcome.unwrap()), film.frames())
+        .unwrap();
     (m, view)
 }
 

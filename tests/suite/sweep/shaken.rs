@@ -7,7 +7,7 @@ use voussoir::{
     analysis::{Answer, Control, Question, ask},
     ground::{Pulse, Record},
     interface::prepare,
-    proof::{Answer as Said, ResultFile, verify},
+    proof::{Answer as Said, ResultFile, saved, verify},
     rocking::{RunSettings, Search, run as run_machine, scan},
     scene::Scene,
     sweep::{
@@ -280,7 +280,7 @@ fn asked(question: Value) -> (Scene, ResultFile) {
     let question: Question = serde_json::from_value(question).unwrap();
     let model = prepare(&scene).unwrap();
     let answer = ask(&question, &scene, &model, &Control::default()).unwrap();
-    let file = ResultFile::of(&scene, &model, &answer).unwrap();
+    let file = saved::of(&scene, &model, &answer).unwrap();
     // As it is read again.
     (scene, serde_json::from_str(&serde_json::to_string(&file).unwrap()).unwrap())
 }

@@ -2,7 +2,7 @@
 //! point it goes on growing until the block lies on its side.
 
 use super::{CLOSED, FREE, Linkage, Place, STEPS, free};
-use crate::verdict::Rate;
+use check::verdict::Rate;
 use nalgebra::{DMatrix, DVector, Vector3};
 
 /// How far a block must have turned.

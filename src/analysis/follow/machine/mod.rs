@@ -10,17 +10,19 @@ mod side;
 mod table;
 
 use super::answer::followable;
-use crate::{
-    analysis::{Control, LoadFactor, Proved, limit},
-    assembly::Assembly,
-    error::{InputError, JsonPath},
-    interface::{self, Model},
+use crate::{Control, LoadFactor, Proved, limit};
+use base::error::{InputError, JsonPath};
+use check::{
     kinematic::{Mass, MassKind, quake},
     rocking::Machine,
-    scene::Scene,
     terms::{Law, Outcome},
 };
+use model::{
+    assembly::Assembly,
+    interface::{self, Model},
+};
 use nalgebra::Vector3;
+use scene::Scene;
 use side::Side;
 
 /// What a machine is asked for.
@@ -129,7 +131,7 @@ pub fn machine(
     }
     let exactness = side::exactness(&sides, &built);
     let thickness = side::thickness(&model.assembly.blocks[chosen.block]);
-    let senses: [Option<crate::rocking::Sense>; 2] =
+    let senses: [Option<check::rocking::Sense>; 2] =
         std::array::from_fn(|k| built.get(k).and_then(|b| b.as_ref().map(|b| b.sense.clone())));
     Ok(Built {
         machine: Machine { senses, restitution },
@@ -194,7 +196,7 @@ fn directions(
         refuse("without gravity nothing rocks".into()).hint("give the scene its gravity")
     })?;
     let across = toward - up * up.dot(&toward);
-    if across.norm().is_nan() || across.norm() <= crate::tolerance::ALONG * toward.norm() {
+    if across.norm().is_nan() || across.norm() <= base::tolerance::ALONG * toward.norm() {
         return Err(refuse(format!(
             "the ground cannot move towards {:?}: it is parallel to gravity",
             toward.as_slice()

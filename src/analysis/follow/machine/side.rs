@@ -2,20 +2,22 @@
 
 use super::{Beside, Exactness, refuse, table};
 use crate::{
-    analysis::{
-        LoadFactor, Proved,
-        follow::{
-            linkage::{Linkage, Place, Turned},
-            program,
-        },
+    LoadFactor, Proved,
+    follow::{
+        linkage::{Linkage, Place, Turned},
+        program,
     },
-    assembly::{Block, Pose, Solid},
-    error::InputError,
-    interface::Model,
+};
+use base::error::InputError;
+use check::{
     path::{Carried, Drive},
     rocking::{Law, Sense},
     terms::Outcome,
     verdict::Rate,
+};
+use model::{
+    assembly::{Block, Pose, Solid},
+    interface::Model,
 };
 use nalgebra::Vector3;
 

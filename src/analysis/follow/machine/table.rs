@@ -1,6 +1,6 @@
 //! The law of a mechanism from numbers along its linkage.
 
-use crate::rocking::{Circular, Law, NODES, Table, law};
+use check::rocking::{Circular, Law, NODES, Table, law};
 use nalgebra::Vector3;
 use std::f64::consts::FRAC_PI_2;
 

@@ -1,0 +1,86 @@
+//! What a check computes again, because no theorem says it.
+
+use super::{result::ResultFile, rocking::RockingAnswer, shaken::ShakenAnswer};
+use crate::{
+    rocking::RockOptions,
+    terms::{ClosedAnswer, Law, Order, StateMotion},
+    verdict::Verdict,
+};
+use base::error::InputError;
+use model::interface::Model;
+use scene::Scene;
+
+/// What only a solver or an engine can do again. Who has neither ([`Nothing`]) answers `None` to
+/// everything here, and what was to be known stays unchecked.
+pub trait Recompute {
+    /// What the scene does under its dead load with dry friction.
+    fn motion(&self, _model: &Model) -> Option<StateMotion> {
+        None
+    }
+
+    /// Whether the live load alone comes to rest on the forces that it produces.
+    fn rests_alone(&self, _model: &Model) -> Option<bool> {
+        None
+    }
+
+    /// Verdict and least unbalance (g) of the scene with this value at `pointer`, or that there is
+    /// no such scene.
+    fn with_value(
+        &self,
+        _scene: &Scene,
+        _pointer: &str,
+        _value: f64,
+        _law: Law,
+    ) -> Option<Result<(Verdict, f64), InputError>> {
+        None
+    }
+
+    /// The question of a result asked again with contacts closed that were left out: the law by
+    /// which joints slide there, and the answer, where it is asked at all.
+    fn closed(
+        &self,
+        _file: &ResultFile,
+        _law: Law,
+        _scene: &Scene,
+        _model: &Model,
+    ) -> Option<Option<(Law, ClosedAnswer)>> {
+        None
+    }
+
+    /// What a mechanism on ground that moves does, run again.
+    fn rocking(
+        &self,
+        _options: &RockOptions,
+        _scene: &Scene,
+        _model: &Model,
+    ) -> Option<Result<RockingAnswer, InputError>> {
+        None
+    }
+
+    /// What all blocks do on ground that moves, run again for as many steps as it is said to have
+    /// taken.
+    fn shaken(
+        &self,
+        _said: &ShakenAnswer,
+        _scene: &Scene,
+        _model: &Model,
+    ) -> Option<Result<ShakenAnswer, InputError>> {
+        None
+    }
+
+    /// The number of held blocks below which a search finds no order like this one.
+    fn least_held(
+        &self,
+        _order: &Order,
+        _scene: &Scene,
+        _model: &Model,
+    ) -> Option<Result<usize, InputError>> {
+        None
+    }
+}
+
+/// Computes nothing again: the checker by itself.
+#[derive(Clone, Copy, Debug)]
+pub struct Nothing;
+
+impl Recompute for Nothing {}

@@ -1,0 +1,69 @@
+//! The tolerances of one pair of blocks, in metres.
+
+use super::body::Body;
+use base::tolerance;
+use nalgebra::Vector3;
+use scene::ContactSpec;
+
+/// What counts as touching between two given blocks. All lengths derive from the size of the
+/// smaller block, and none is below the rounding of the coordinates.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Limits {
+    /// Size of the smaller block, m.
+    pub size: f64,
+    /// Gaps and overlaps up to this are closed, m.
+    pub gap: f64,
+    /// Gaps up to this are near misses, m.
+    pub near: f64,
+    /// Points closer than this in the plane of a contact are one, m.
+    pub weld: f64,
+    /// Gaps and overlaps up to this are rounding, m.
+    pub noise: f64,
+    /// Least area, m².
+    pub min_area: f64,
+    /// Greatest `|n_a + n_b|` of two facets that face each other.
+    pub chord: f64,
+    /// Greatest `|n_a + n_b|` of two facets that nearly face each other.
+    pub near_chord: f64,
+}
+
+/// Reach of near misses, × size.
+pub(super) fn near(spec: &ContactSpec) -> f64 {
+    (spec.gap * tolerance::NEAR_MISS_FACTOR).min(tolerance::NEAR_MISS_LIMIT).max(spec.gap)
+}
+
+impl Limits {
+    pub fn of(a: &Body, b: &Body, spec: &ContactSpec) -> Self {
+        let size = a.block.size.min(b.block.size);
+        // The greater block's corners count too: they carry the plane the smaller one lies on.
+        let rounding = tolerance::COORDINATE_ROUNDING * a.bounds.reach().max(b.bounds.reach());
+        let gap = (spec.gap * size).max(rounding);
+        Self {
+            size,
+            gap,
+            near: (near(spec) * size).max(gap),
+            weld: (tolerance::CONTACT_WELD * size).max(rounding),
+            noise: (tolerance::GAP_WORTH_TELLING * size).max(rounding),
+            min_area: spec.min_area * size * size,
+            chord: chord(spec.angle_deg) + tolerance::CONTACT_ROUNDING_ANGLE,
+            near_chord: chord(spec.angle_deg.max(tolerance::NEAR_MISS_ANGLE_DEG))
+                + tolerance::CONTACT_ROUNDING_ANGLE,
+        }
+    }
+
+    /// How far normals `a` and `b` are from opposite, `|n_a + n_b|`, less what the twist of the
+    /// facets (radians) explains.
+    pub fn lean(&self, a: &Vector3<f64>, b: &Vector3<f64>, twist: f64) -> f64 {
+        ((a + b).norm() - twist).max(0.0)
+    }
+}
+
+/// `|n_a + n_b|` of facets this far from parallel.
+fn chord(degrees: f64) -> f64 {
+    2.0 * (degrees.to_radians() / 2.0).sin()
+}
+
+/// Degrees from parallel of facets with this `|n_a + n_b|`.
+pub(super) fn degrees(chord: f64) -> f64 {
+    (2.0 * (chord / 2.0).min(1.0).asin()).to_degrees()
+}

@@ -1,0 +1,115 @@
+//! What `check` found, for people.
+
+use super::page::{Layout, Page, Role};
+use analysis::Law;
+use base::{
+    error::Finding,
+    number::{count, short},
+};
+use check::proof::{result::ResultFile, verify::Verification};
+use model::{assembly::Member, interface::Model, train};
+use scene::Train;
+
+/// The verification of a result: what holds and what fails, part by part.
+pub fn verification(file: &ResultFile, verification: &Verification, layout: Layout) -> Page {
+    let mut page = Page::new(layout);
+    let (text, role) = match (verification.refuted(), verification.claimed) {
+        (true, _) => ("refuted", Role::Bad),
+        (false, true) => ("proved", Role::Good),
+        (false, false) if file.answer.shaken().is_some() => {
+            let again = verification.unchecked().next().is_none();
+            let words = [
+                "not confirmed: run again, the engine does something else, or was not run",
+                "confirmed, not proved: run again, the engine does the same",
+            ];
+            (words[usize::from(again)], Role::Unsure)
+        }
+        (false, false) => ("claims nothing", Role::Unsure),
+    };
+    let text = if verification.refuted() || !verification.claimed {
+        text.into()
+    } else {
+        format!("{text}, {}", verification.grade())
+    };
+    let text = match file.answer.as_verdict().and_then(|a| a.law) {
+        Some(Law::Associative) if !verification.refuted() => {
+            format!("{text}; whether a pre-stress is needed was not asked")
+        }
+        _ if verification.computed() && file.answer.rocking().is_some() => {
+            format!("where it starts is {text}; its history is computed, not proved")
+        }
+        _ if verification.computed() && file.answer.shaken().is_none() => {
+            format!("{text}; that states under dry friction rest or move is computed, not proved")
+        }
+        _ => text,
+    };
+    page.title(&file.scene.name, super::answer::under(file, text), role);
+    for (title, findings) in &verification.parts {
+        page.blank();
+        page.paragraph(title);
+        page.row("fails", findings.fails.iter().cloned());
+        page.row("holds", findings.holds.iter().cloned());
+        page.row("open", findings.unchecked.iter().cloned());
+    }
+    if !verification.scene.is_empty() {
+        page.blank();
+        page.paragraph("what is to be known about the scene");
+        page.row("note", verification.scene.iter().map(|f| f.text.clone()));
+    }
+    page
+}
+
+/// A scene's likely mistakes, and what else is worth knowing about it.
+pub fn inspection(
+    model: &Model,
+    train: Option<&Train>,
+    [mistakes, notes]: [&[Finding]; 2],
+    layout: Layout,
+) -> Page {
+    let mut page = Page::new(layout);
+    match mistakes.len() {
+        0 => page.title(&model.assembly.name, "nothing suspicious", Role::Good),
+        n => page.title(&model.assembly.name, count(n, "finding"), Role::Bad),
+    }
+    page.blank();
+    page.row("findings", mistakes.iter().map(|f| f.text.clone()));
+    page.row("note", notes.iter().map(|f| f.text.clone()));
+    let words = |m: &Member| {
+        let strength = m.greatest.max(-m.least);
+        let most = if strength.is_finite() {
+            format!("at most {} N", short(strength))
+        } else {
+            "never yields".into()
+        };
+        format!("{} ({}): {most}", m.id, m.kind.word())
+    };
+    page.row("members", model.interfaces.members.iter().map(words));
+    page.row(
+        "train",
+        train.map(|t| {
+            format!(
+                "{}, {} from x = {} to {} m in steps of {} m{}: `limit` with --moving",
+                count(t.axles.len(), "axle"),
+                count(train::positions(t).len(), "position"),
+                short(t.path[0]),
+                short(t.path[1]),
+                short(t.step),
+                if train::is_symmetric(t) { "" } else { ", both directions of travel" }
+            )
+        }),
+    );
+    let supports = model.assembly.blocks.iter().filter(|b| b.support).count();
+    let interfaces = &model.interfaces.list;
+    page.row(
+        "scene",
+        [format!(
+            "{} ({}), {}, {}{}",
+            count(model.assembly.blocks.len(), "block"),
+            count(supports, "support"),
+            count(interfaces.len(), "interface"),
+            count(model.contact_points(), "contact point"),
+            super::with_members(model.interfaces.members.len())
+        )],
+    );
+    page
+}

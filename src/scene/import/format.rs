@@ -1,0 +1,80 @@
+//! Which format a file has.
+
+use super::{
+    stl,
+    text::{split, unmarked},
+};
+use base::error::{InputError, JsonPath};
+use std::{fmt, path::Path};
+
+/// A foreign file format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// JSON written by COMPAS: Assembly, CRA_Assembly, BlockModel, lists of meshes.
+    Compas,
+    /// Wavefront OBJ.
+    Obj,
+    /// Polygon file format (Stanford).
+    Ply,
+    /// Stereolithography.
+    Stl,
+    /// Spheres, as a table or as a dump of LIGGGHTS or LAMMPS.
+    Grains,
+}
+
+impl fmt::Display for Format {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Format::Compas => "COMPAS JSON",
+            Format::Obj => "OBJ",
+            Format::Ply => "PLY",
+            Format::Stl => "STL",
+            Format::Grains => "grains",
+        })
+    }
+}
+
+impl Format {
+    /// The format the user asked for, else by the extension, else by the content.
+    pub(super) fn of(
+        path: &Path,
+        bytes: &[u8],
+        asked: Option<Format>,
+    ) -> Result<Format, InputError> {
+        let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
+        asked
+            .or(match extension.as_deref() {
+                Some("json") => Some(Format::Compas),
+                Some("obj") => Some(Format::Obj),
+                Some("ply") => Some(Format::Ply),
+                Some("stl") => Some(Format::Stl),
+                Some("csv" | "dump" | "liggghts" | "lammpstrj") => Some(Format::Grains),
+                _ => None,
+            })
+            .or_else(|| Format::by_content(bytes))
+            .ok_or_else(|| {
+                InputError::at(JsonPath::root(), "neither the extension nor the content tells the format")
+                    .hint("known formats are COMPAS JSON, OBJ, PLY, STL, and tables or dumps of grains; name the file .json, .obj, .ply, .stl, .csv or .dump")
+            })
+    }
+
+    fn by_content(bytes: &[u8]) -> Option<Format> {
+        let text = unmarked(bytes).trim_ascii_start();
+        let statement = |line: &[u8]| {
+            [&b"v "[..], b"o ", b"g ", b"f ", b"mtllib "].iter().any(|s| line.starts_with(s))
+        };
+        if text.starts_with(b"ITEM:") {
+            Some(Format::Grains)
+        } else if text.starts_with(b"{") || text.starts_with(b"[") {
+            Some(Format::Compas)
+        } else if text.starts_with(b"ply\n") || text.starts_with(b"ply\r") {
+            Some(Format::Ply)
+        } else if stl::looks_like(bytes) || stl::looks_like(text) {
+            Some(Format::Stl)
+        } else if split(text).take(100).any(|line| statement(line.trim_ascii_start())) {
+            Some(Format::Obj)
+        } else {
+            None
+        }
+    }
+}

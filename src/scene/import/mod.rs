@@ -1,0 +1,174 @@
+//! Foreign files → [`Scene`].
+//!
+//! | format | what is read | a block is |
+//! |---|---|---|
+//! | COMPAS JSON | Assembly, CRA_Assembly, BlockModel, lists of meshes; versions 0.x, 1 and 2 | a node of the graph, an element, a mesh |
+//! | OBJ | polygons as they are, objects and groups | an object, else a group, else a connected part |
+//! | PLY | ASCII and binary, both byte orders | a file |
+//! | STL | ASCII and binary | a `solid`, a binary file |
+//! | grains | tables (CSV), dumps of LIGGGHTS and LAMMPS | a sphere, a clump of them |
+//!
+//! Importers say what the file says: faces keep their corners and their order, nothing is welded,
+//! turned or closed. Whether a block is a proper solid is judged later, by
+//! `model::assembly::resolve`, for scenes of every origin alike. What a scene needs and the file
+//! does not have (supports, friction) is taken from [`ImportOptions`]; what is still missing then
+//! is a [`Finding`], not an error.
+//!
+//! Single meshes are read as well: those that the blocks of a scene name ([`read_meshes`]).
+//!
+//! Coordinates of the scene = rotation that brings [`ImportOptions::up`] to z ×
+//! [`ImportOptions::scale`] × coordinates of the file.
+
+mod compas;
+mod finish;
+mod format;
+mod grains;
+mod mesh;
+mod obj;
+mod options;
+mod ply;
+mod raw;
+mod stl;
+mod text;
+
+#[cfg(test)]
+mod tests;
+
+pub use format::Format;
+pub use mesh::{Reach, read_meshes};
+pub use options::{ImportOptions, Up};
+
+use crate::Scene;
+use base::{
+    error::{Finding, InputError, JsonPath},
+    limits,
+};
+use raw::Raw;
+use std::path::Path;
+
+/// A scene made from foreign files, and what is worth knowing about the way there.
+#[derive(Clone, Debug)]
+pub struct Imported {
+    /// The scene.
+    pub scene: Scene,
+    /// What was read how, what was left out, what is still missing.
+    pub findings: Vec<Finding>,
+    /// Where each block of the scene comes from.
+    pub origins: Vec<Origin>,
+}
+
+/// Where a block comes from.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Origin {
+    /// The file, as the user gave it.
+    pub file: String,
+    /// Where the block begins there: a line, counted from 1; none in files without lines.
+    pub line: Option<usize>,
+    /// The line of each of its faces, where faces have lines.
+    pub lines: Vec<usize>,
+}
+
+impl Origin {
+    /// The place of a face, or of the block: `vault.obj:41`.
+    pub fn place(&self, face: Option<usize>) -> String {
+        let line = face.and_then(|f| self.lines.get(f)).or(self.line.as_ref());
+        line.map_or_else(|| self.file.clone(), |line| format!("{}:{line}", self.file))
+    }
+}
+
+/// Imports one file (and the files of [`ImportOptions::support_files`]).
+///
+/// # Errors
+/// A file cannot be read or makes no sense; an option is out of its range or names a block that is
+/// not there.
+pub fn import_file(path: &Path, options: &ImportOptions) -> Result<Imported, InputError> {
+    import_files(&[path], options)
+}
+
+/// Imports several files into one scene, in order; the files of [`ImportOptions::support_files`]
+/// come last and all their blocks are supports.
+///
+/// Where two files use the same id, the ids of every file get its name in front (`blocks-12`), and
+/// a finding says so.
+///
+/// # Errors
+/// As for [`import_file`].
+pub fn import_files<P: AsRef<Path>>(
+    paths: &[P],
+    options: &ImportOptions,
+) -> Result<Imported, InputError> {
+    options.check()?;
+    let mut files = paths
+        .iter()
+        .map(|path| load(path.as_ref(), false, options))
+        .collect::<Result<Vec<_>, _>>()?;
+    add_support_files(&mut files, options)?;
+    finish::scene(files, options)
+}
+
+/// Imports a file that is already in memory; `name` stands for it in messages, its extension tells
+/// the format.
+///
+/// # Errors
+/// As for [`import_file`]; the files of [`ImportOptions::support_files`] are read here too.
+pub fn import_bytes(
+    name: &str,
+    bytes: &[u8],
+    options: &ImportOptions,
+) -> Result<Imported, InputError> {
+    options.check()?;
+    let mut files = vec![read(name, bytes, false, options)?];
+    add_support_files(&mut files, options)?;
+    finish::scene(files, options)
+}
+
+fn add_support_files(files: &mut Vec<Raw>, options: &ImportOptions) -> Result<(), InputError> {
+    for path in &options.support_files {
+        files.push(load(path, true, options)?);
+    }
+    Ok(())
+}
+
+fn load(path: &Path, is_support: bool, options: &ImportOptions) -> Result<Raw, InputError> {
+    let name = path.display().to_string();
+    let bytes = limits::read_file(path, limits::PER_FOREIGN_BYTE)?;
+    read(&name, &bytes, is_support, options)
+}
+
+/// One file, read but not yet scaled, turned or merged with others.
+fn read(
+    name: &str,
+    bytes: &[u8],
+    is_support: bool,
+    options: &ImportOptions,
+) -> Result<Raw, InputError> {
+    let path = Path::new(name);
+    let stem =
+        path.file_stem().map_or_else(|| "block".into(), |s| s.to_string_lossy().into_owned());
+    let result = Format::of(path, bytes, options.format).and_then(|format| {
+        let mut raw = match format {
+            Format::Compas => compas::read(bytes),
+            Format::Obj => obj::read(bytes, &stem),
+            Format::Ply => ply::read(bytes, &stem),
+            Format::Stl => stl::read(bytes, &stem),
+            Format::Grains => grains::read(bytes),
+        }?;
+        if raw.blocks.is_empty() && raw.grains.is_empty() {
+            return Err(InputError::at(
+                JsonPath::root(),
+                format!("no blocks found in this {format} file"),
+            )
+            .hint("export the blocks as closed meshes, or grains as rows, and check that this is the right file"));
+        }
+        raw.stem = stem;
+        raw.name = name.into();
+        raw.origin = format!(
+            "{} ({format})",
+            path.file_name().map_or_else(|| name.into(), |f| f.to_string_lossy())
+        );
+        raw.blocks.iter_mut().for_each(|b| b.support |= is_support);
+        raw.grains.iter_mut().for_each(|g| g.support |= is_support);
+        Ok(raw)
+    });
+    result.map_err(|e| InputError { file: Some(name.into()), ..e })
+}

@@ -1,0 +1,160 @@
+//! What the readers of all formats hand over: blocks and interfaces in the coordinates of the file.
+
+use crate::{InterfaceSpec, Material};
+use base::{
+    error::{Finding, FindingCode},
+    plane::Sets,
+};
+use std::collections::{BTreeMap, HashSet};
+
+/// The content of one file.
+#[derive(Debug, Default)]
+pub(super) struct Raw {
+    /// File name without folder and extension.
+    pub stem: String,
+    /// The file as the user gave it.
+    pub name: String,
+    /// File name and format, for `source`.
+    pub origin: String,
+    pub blocks: Vec<Solid>,
+    pub grains: Vec<Grain>,
+    pub interfaces: Vec<InterfaceSpec>,
+    /// How many of them hold solved forces, which are not read.
+    pub with_forces: usize,
+    pub materials: BTreeMap<String, Material>,
+    pub findings: Vec<Finding>,
+}
+
+/// A block as a mesh.
+#[derive(Debug, Default)]
+pub(super) struct Solid {
+    pub id: String,
+    pub vertices: Vec<[f64; 3]>,
+    pub faces: Vec<Vec<usize>>,
+    pub support: bool,
+    pub material: Option<String>,
+    /// Where it begins in the file: a line, counted from 1.
+    pub line: Option<usize>,
+    /// The line of each face, where faces have lines.
+    pub lines: Vec<usize>,
+}
+
+/// Spheres of one block: centres and radii.
+#[derive(Debug)]
+pub(super) struct Grain {
+    pub id: String,
+    pub spheres: Vec<([f64; 3], f64)>,
+    pub support: bool,
+    /// Where it begins in the file: a line, counted from 1.
+    pub line: usize,
+}
+
+impl Raw {
+    pub fn say(&mut self, code: FindingCode, text: impl Into<String>) {
+        self.findings.push(Finding::new(code, text));
+    }
+
+    /// Makes the ids unique by numbers at their end; empty ids become `fallback`. Says how many
+    /// were changed.
+    pub fn name_apart(&mut self, fallback: &str) {
+        let mut taken: HashSet<String> = self.blocks.iter().map(|b| b.id.clone()).collect();
+        let mut seen = HashSet::new();
+        let mut renamed = Vec::new();
+        let mut next: BTreeMap<String, usize> = BTreeMap::new();
+        for block in &mut self.blocks {
+            let unnamed = block.id.is_empty();
+            if !unnamed && seen.insert(block.id.clone()) {
+                continue;
+            }
+            let base = if unnamed { fallback.to_string() } else { block.id.clone() };
+            let number = next.entry(base.clone()).or_insert(if unnamed { 1 } else { 2 });
+            let id = loop {
+                let id = format!("{base}-{number}");
+                *number += 1;
+                if taken.insert(id.clone()) {
+                    break id;
+                }
+            };
+            renamed.push(format!("{:?} → {id:?}", block.id));
+            block.id = id;
+        }
+        if !renamed.is_empty() {
+            let text = format!("blocks without a name of their own, renamed: {}", tally(&renamed));
+            self.say(FindingCode::Converted, text);
+        }
+    }
+
+    /// Says which blocks consist of parts that share no corner.
+    pub fn say_parts(&mut self) {
+        let several: Vec<String> = self
+            .blocks
+            .iter()
+            .filter_map(|b| {
+                let parts =
+                    parts(b.vertices.len(), &b.faces).iter().copied().max().map_or(0, |m| m + 1);
+                (parts > 1).then(|| format!("{:?} ({parts} parts)", b.id))
+            })
+            .collect();
+        if !several.is_empty() {
+            let text = format!(
+                "blocks of several parts that share no corner, kept as one rigid block each: {}; \
+                 if the parts are blocks of their own, export them as separate objects",
+                tally(&several)
+            );
+            self.say(FindingCode::Converted, text);
+        }
+    }
+}
+
+/// How many, and the first few of them: `12 (a, b, …)`.
+pub(super) fn tally(names: &[String]) -> String {
+    format!("{} ({})", names.len(), list(names))
+}
+
+/// The first few of many names.
+pub(super) fn list(names: &[String]) -> String {
+    const SHOWN: usize = 8;
+    let mut text = names.iter().take(SHOWN).cloned().collect::<Vec<_>>().join(", ");
+    if names.len() > SHOWN {
+        text.push_str(&format!(", … ({} more)", names.len() - SHOWN));
+    }
+    text
+}
+
+/// Which connected part every face belongs to, numbered by first appearance: two faces are
+/// connected when they share a corner's index.
+pub(super) fn parts(vertices: usize, faces: &[Vec<usize>]) -> Vec<usize> {
+    let mut sets = Sets::new(vertices);
+    for face in faces {
+        for pair in face.windows(2) {
+            sets.join(pair[0], pair[1]);
+        }
+    }
+    let mut number = BTreeMap::new();
+    faces
+        .iter()
+        .map(|face| {
+            let next = number.len();
+            face.first().map_or(0, |&corner| *number.entry(sets.find(corner)).or_insert(next))
+        })
+        .collect()
+}
+
+/// A solid of the given faces that keeps only the corners they use, in their old order.
+/// `lines` are those of the faces.
+pub(super) fn compact(
+    id: String,
+    lines: Vec<usize>,
+    all: &[[f64; 3]],
+    mut faces: Vec<Vec<usize>>,
+) -> Solid {
+    let mut used: Vec<usize> = faces.iter().flatten().copied().collect();
+    used.sort_unstable();
+    used.dedup();
+    for corner in faces.iter_mut().flatten() {
+        // Every corner is in `used` by construction.
+        *corner = used.partition_point(|&u| u < *corner);
+    }
+    let vertices = used.iter().map(|&i| all[i]).collect();
+    Solid { id, vertices, faces, line: lines.first().copied(), lines, ..Solid::default() }
+}
