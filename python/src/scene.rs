@@ -10,9 +10,10 @@ use std::{
     sync::{Arc, Mutex, PoisonError},
 };
 use voussoir::{
+    deadline::clock,
     error::{Finding, InputError, JsonPath, Step},
     import::{Reach, read_meshes},
-    interface::{Model, prepare_until},
+    interface::{Model, prepare_timed},
     limits,
     report::{Inspection, json},
     scene::{self, BlockSpec, Shape, Source},
@@ -63,7 +64,7 @@ impl Ready {
             return Ok(model.clone());
         }
         let mut model =
-            prepare_timed(&self.scene, is_over, &deadline::clock).map_err(|e| match is_over() {
+            prepare_timed(&self.scene, is_over, &clock).map_err(|e| match is_over() {
                 true => Trouble::TimeIsUp(e.to_string()),
                 false => self.located(e),
             })?;
