@@ -126,7 +126,7 @@
 
 pub use analysis;
 pub use base::{error, files, limits, number, plain, plane, tolerance};
-pub use check::{ground, kinematic, path, rocking, terms, verdict, yielding};
+pub use check::{elastic, ground, kinematic, path, rocking, terms, verdict};
 pub use cholesky::{self, parallel};
 pub use dynamics;
 pub use model::{assembly, interface, strength, train};

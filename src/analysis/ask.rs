@@ -3,25 +3,25 @@
 //! variant of [`Question`] and one of [`Answer`].
 
 use super::{
-    Assessment, Control, Critical, Law, LoadFactor, Outcome, Proved, Question, Tilt,
-    alike::Tilts,
-    assess,
-    attempt::side_by_side,
+    Assessment, Control, Critical, Law, LoadFactor, Outcome, Proved, Question, Tilt, assess,
     coulomb,
     coulomb::DryLoadFactor,
-    critical, follow,
+    critical,
+    directions::Tilts,
+    follow,
     follow::{
         answer::{Followed, GoesOn},
         machine::{Built, MachineOptions, machine},
     },
     in_time::{self, Asked},
     kinematic::{self, Kinematic},
+    ladder::side_by_side,
     limit,
+    model_cache::{Keys, Reuse},
     moving::{self, Moving},
     question::{
         CriticalOptions, LimitOptions, ReposeOptions, ThrustOptions, TiltOptions, directions,
     },
-    reuse::{Keys, Reuse},
     rocking::{self, Rocking},
     stability,
     stability::Packing,

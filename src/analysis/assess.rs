@@ -4,10 +4,10 @@
 
 use super::{
     Bracket, Deciding, Proved,
-    attempt::{Control, Rung, is_large, run, steps},
-    coulomb::{State, StateMotion, state},
+    coulomb::{DryState, StateMotion, state},
     forest::{Fate, Forest},
-    mend, parts,
+    ladder::{Control, Rung, is_large, run, steps},
+    parts, repair,
 };
 use base::tolerance;
 use check::{
@@ -50,7 +50,7 @@ pub struct Assessment {
     /// The mechanism, where it is unstable.
     pub mechanism: Option<Mechanism>,
     /// The state under dry friction, where it had to be computed.
-    pub state: Option<State>,
+    pub state: Option<DryState>,
     /// Free blocks without a contact path to a support, by groups.
     pub floating: Vec<Vec<usize>>,
     /// What was tried.
@@ -287,7 +287,7 @@ pub(super) fn least_unbalance(model: &Model, live: LiveLoad, control: &Control) 
         let mut done = run(model, &mut statics, build, &settings, None);
         let (mut lower, mut upper) = (0.0, f64::INFINITY);
         if let Some(mut c) = done.candidate.take() {
-            mend::cut(interfaces, &mut c.forces);
+            repair::cut(interfaces, &mut c.forces);
             let lambda = if live == LiveLoad::AnyMultiple {
                 c.solution.x.last().copied().unwrap_or(0.0)
             } else {
@@ -301,7 +301,7 @@ pub(super) fn least_unbalance(model: &Model, live: LiveLoad, control: &Control) 
             if !s.balanced
                 && let Some(mut better) = existence::improved(model, &c.forces, lambda)
             {
-                mend::cut(interfaces, &mut better);
+                repair::cut(interfaces, &mut better);
                 let left = certificate::statics(model, &better, lambda);
                 if left.unbalance < s.unbalance {
                     (s, c.forces) = (left, better);
@@ -316,7 +316,7 @@ pub(super) fn least_unbalance(model: &Model, live: LiveLoad, control: &Control) 
                 && live == LiveLoad::Absent
                 && !s.balanced
                 && let Some(mended) =
-                    mend::admissible(model, &c.rates, (0.0, 0.5 * k.gain()), control.deadline)
+                    repair::admissible(model, &c.rates, (0.0, 0.5 * k.gain()), control.deadline)
             {
                 k = certificate::kinematics(model, &mended, &c.forces);
                 c.rates = mended;
@@ -363,8 +363,9 @@ pub(super) fn least_unbalance(model: &Model, live: LiveLoad, control: &Control) 
         let power = certificate::kinematics(model, &answer.rates, &no_forces(interfaces));
         let most = 0.5 * (power.gain() - tolerance::UNBALANCE * power.norm);
         let with_live = live == LiveLoad::AnyMultiple;
-        if let Some(mended) = mend::admissible(model, &answer.rates, (0.0, most), control.deadline)
-            .filter(|_| !with_live)
+        if let Some(mended) =
+            repair::admissible(model, &answer.rates, (0.0, most), control.deadline)
+                .filter(|_| !with_live)
         {
             let k = certificate::kinematics(model, &mended, &no_forces(interfaces));
             (answer.unbalance.lower, answer.rates) = (k.gain() / k.norm, mended);

@@ -2,14 +2,14 @@
 //!
 //! The range is scanned first, since a verdict may flip more than once (a voussoir arch is not
 //! monotone in anything but its load). Between neighbours whose verdicts differ the flip is
-//! narrowed ([`flip`](super::flip)). A value at which the scene falls less than at both its
+//! narrowed ([`flip`](super::critical_value)). A value at which the scene falls less than at both its
 //! neighbours may hide a window in which it stands: there the least unbalance is followed to its
 //! lowest point. A window in which it falls, between two values at which it stands, has no such
 //! trace; only a finer scan finds it.
 
 use super::{
     Assessment, Control, Law, Proved, assess,
-    flip::{Flip, Probe, refine},
+    critical_value::{Flip, Probe, refine},
 };
 use base::{
     error::{InputError, JsonPath},

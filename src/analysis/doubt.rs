@@ -7,7 +7,7 @@
 
 use super::{
     Answer, Assessment, Control, Critical, LoadFactor, Proved, Tilt, coulomb::DryLoadFactor,
-    critical::Scanned, flip::Probe,
+    critical::Scanned, critical_value::Probe,
 };
 use base::{
     number::{computed, count, short},

@@ -9,10 +9,9 @@
 use super::{
     Proved,
     assess::{least_unbalance, wedges},
-    attempt::{Control, Rung, is_large, run, steps},
-    mend,
-    near::Near,
-    parts,
+    ladder::{Control, Rung, is_large, run, steps},
+    parts, repair,
+    warm_start::Near,
 };
 use base::tolerance;
 use check::{
@@ -232,7 +231,7 @@ fn prove(
     let mut moved = motion::motion(model, &answer.rates);
     let is_proof = |m: &MotionProof| m.is_admissible() && m.gain().lower.is_finite();
     if !moved.as_ref().is_some_and(is_proof)
-        && let Some(mended) = mend::admissible(
+        && let Some(mended) = repair::admissible(
             model,
             &answer.rates,
             (value, 0.1 * width * k.live_power),
@@ -275,7 +274,7 @@ fn prove(
                 .map(|(a, b)| a.iter().zip(b).map(mix).collect())
                 .collect();
         }
-        mend::cut(interfaces, &mut forces);
+        repair::cut(interfaces, &mut forces);
         let forces = existence::improved(model, &forces, lambda).unwrap_or(forces);
         let left = certificate::statics(model, &forces, lambda).unbalance;
         let exact = existence::exists(model, &forces, lambda);
@@ -499,7 +498,7 @@ fn diagnose(model: &Model, control: &Control, answer: &mut LoadFactor) -> bool {
     if any.verdict == Verdict::Unstable {
         answer.outcome = Outcome::Impossible;
         answer.bracket = Bracket { lower: f64::NEG_INFINITY, upper: f64::NEG_INFINITY };
-        (answer.forces, answer.rates) = (any.forces, mend::at_rest(model, &any.rates));
+        (answer.forces, answer.rates) = (any.forces, repair::at_rest(model, &any.rates));
         answer.mechanism = Some(mechanism::read(model, &answer.rates));
         return true;
     }
@@ -519,7 +518,7 @@ fn diagnose(model: &Model, control: &Control, answer: &mut LoadFactor) -> bool {
         let proves = |forces: &Forces| wedges(model, (any.load_factor, &any.forces), forces);
         if !proves(&forces)
             && let Some(mended) =
-                ROUNDING.iter().map(|share| mend::without(&forces, *share)).find(proves)
+                ROUNDING.iter().map(|share| repair::without(&forces, *share)).find(proves)
         {
             forces = mended;
         }

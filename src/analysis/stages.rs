@@ -15,7 +15,7 @@ pub use options::{MOST_TRIES, StagesOptions};
 
 use super::{
     Answer, Assessment, Control, LimitOptions, Proved, Question, TiltOptions, ask, doubt,
-    known::Known,
+    part_cache::Known,
     thrust::{ThrustEnd, level, outwards, thrust},
 };
 use base::error::{InputError, JsonPath};

@@ -6,8 +6,8 @@
 
 use super::{
     Assessment, Control, Proved, assess,
-    attempt::{Candidate, Rung, run},
     geometric::{Geometric, geometric_factor},
+    ladder::{Candidate, Rung, run},
     parts,
 };
 use base::{

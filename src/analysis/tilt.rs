@@ -10,9 +10,10 @@
 use super::{
     Bracket, Claims, Control, LoadFactor, Outcome, Proved,
     coulomb::{self, DryLoadFactor, Found},
-    limit, mend,
-    near::Near,
+    limit,
     parts::{self, limit::PartMethods},
+    repair,
+    warm_start::Near,
 };
 use base::{error::InputError, tolerance};
 use check::verdict::{
@@ -111,7 +112,7 @@ fn tilted_joints(part: &Part, tilt: f64) -> Model {
 /// Forces cut to what the joints of a part bear at a tilt.
 fn cut_at(part: &Part, tilt: Option<f64>, forces: &mut Forces) {
     if let Some(tilt) = tilt {
-        mend::cut(&tilted_joints(part, tilt).interfaces, forces);
+        repair::cut(&tilted_joints(part, tilt).interfaces, forces);
     }
 }
 

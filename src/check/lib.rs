@@ -5,6 +5,7 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+pub mod elastic;
 pub mod ground;
 pub mod kinematic;
 pub mod path;
@@ -12,4 +13,3 @@ pub mod proof;
 pub mod rocking;
 pub mod terms;
 pub mod verdict;
-pub mod yielding;

@@ -4,7 +4,7 @@ use super::{
     args::Assess,
     camera::Camera,
     exit::Exit,
-    question::{Seen, Session, unless_weaker, verdict},
+    question::{Depicted, Session, unless_weaker, verdict},
     terminal::Terminal,
 };
 use std::ops::ControlFlow;
@@ -35,6 +35,6 @@ pub fn run(args: &Assess, terminal: &Terminal) -> anyhow::Result<Exit> {
         film = camera.frames();
     }
     let file: ResultFile =
-        session.answer_seen(terminal, &args.options(), Seen::Scene(film), file)?;
+        session.answer_seen(terminal, &args.options(), Depicted::Scene(film), file)?;
     Ok(unless_weaker(&file, verdict(file.answer.verdict())))
 }

@@ -10,7 +10,7 @@ use std::{
 
 /// A file, whatever name leads to it.
 #[derive(PartialEq, Eq)]
-struct Place {
+struct Identity {
     /// Without links on the way.
     path: PathBuf,
     /// Device and number where it is there already: hard links have different paths.
@@ -18,7 +18,7 @@ struct Place {
 }
 
 struct Claim {
-    place: Place,
+    place: Identity,
     /// As it was named first.
     name: PathBuf,
     is_written: bool,
@@ -37,7 +37,7 @@ pub fn written(path: &Path) -> anyhow::Result<()> {
 }
 
 fn claim(path: &Path, is_written: bool) -> anyhow::Result<()> {
-    let Some(place) = Place::of(path) else { return Ok(()) };
+    let Some(place) = Identity::of(path) else { return Ok(()) };
     let mut claims = CLAIMS.lock().unwrap_or_else(PoisonError::into_inner);
     let other = claims.iter().find(|c| c.place.is(&place) && (c.is_written || is_written));
     if let Some(other) = other {
@@ -61,7 +61,7 @@ fn claim(path: &Path, is_written: bool) -> anyhow::Result<()> {
     Ok(())
 }
 
-impl Place {
+impl Identity {
     /// None for what is no regular file: standard output and devices may take what they like, and
     /// what cannot be there is told when it is opened.
     fn of(path: &Path) -> Option<Self> {

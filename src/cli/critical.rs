@@ -3,7 +3,7 @@
 use super::{
     args::Critical as Arguments,
     exit::Exit,
-    question::{Seen, Session, unless_weaker},
+    question::{Depicted, Session, unless_weaker},
     terminal::Terminal,
 };
 use anyhow::bail;
@@ -46,7 +46,7 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
     let answer = session.ask(&question)?;
     let seen = match (&answer, session.report()) {
         (Answer::Critical(flips), Some(_)) => picture(&session, flips)?,
-        _ => Seen::Scene(Vec::new()),
+        _ => Depicted::Scene(Vec::new()),
     };
     let file = session.answer_seen(
         terminal,
@@ -63,13 +63,13 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
 }
 
 /// The scene beside the first flip, on the side where it falls; as it is where there is none.
-fn picture(session: &Session, answer: &Critical) -> anyhow::Result<Seen> {
+fn picture(session: &Session, answer: &Critical) -> anyhow::Result<Depicted> {
     let sides = answer.changes.iter().flat_map(|c| [&c.below, &c.above]);
     let Some(side) = sides.into_iter().find(|s| s.assessment.verdict == Verdict::Unstable) else {
-        return Ok(Seen::Scene(Vec::new()));
+        return Ok(Depicted::Scene(Vec::new()));
     };
     let file = saved::assessment(&session.scene, &side.model, &side.assessment);
     let mut view = View::new(&side.model, &file, Vec::new())?;
     view.caption = format!("falls with {} at {}", answer.range.pointer, fixed(side.value, DIGITS));
-    Ok(Seen::Other(Box::new(view)))
+    Ok(Depicted::Other(Box::new(view)))
 }

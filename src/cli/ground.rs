@@ -7,7 +7,7 @@ use super::{
     claim,
     exit::Exit,
     output::Sink,
-    question::{Seen, Session},
+    question::{Depicted, Session},
     report,
     terminal::{self, Terminal},
 };
@@ -160,7 +160,7 @@ pub fn simulate(args: &Simulate, session: &Session, terminal: &Terminal) -> anyh
     }
     let mut file = session.result(&question, &answer)?;
     file.warnings.extend(record.into_iter().flat_map(|r| r.findings));
-    let seen = Seen::Charted(camera.frames(), charts);
+    let seen = Depicted::Charted(camera.frames(), charts);
     let file = session.answer_seen(terminal, &args.options(), seen, file)?;
     Ok(match file.answer.shaken().map(|a| a.fate) {
         Some(ShakenWord::Overturns) => Exit::No,

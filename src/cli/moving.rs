@@ -5,7 +5,7 @@ use super::{
     args::Limit,
     exit::Exit,
     output::Sink,
-    question::{Seen, Session, requirement, unless_weaker},
+    question::{Depicted, Session, requirement, unless_weaker},
     terminal::Terminal,
 };
 use anyhow::bail;
@@ -37,7 +37,7 @@ pub fn run(args: &Limit, terminal: &Terminal) -> anyhow::Result<Exit> {
     let every = args.every_value.then(|| "--every-value".to_string());
     let own = [vec!["--moving".to_string()], Vec::from_iter(every), skip_dead(args.skip_dead)];
     let own = own.concat();
-    let file = session.answer_seen(terminal, &own, Seen::Scene(film), file)?;
+    let file = session.answer_seen(terminal, &own, Depicted::Scene(film), file)?;
     if let Some(csv) = csv {
         csv.write(&moving::csv(&file)?)?;
     }

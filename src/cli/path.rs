@@ -6,7 +6,7 @@ use super::{
     exit::Exit,
     kept,
     output::Sink,
-    question::{Seen, Session},
+    question::{Depicted, Session},
     terminal::Terminal,
 };
 use anyhow::Context;
@@ -75,7 +75,7 @@ fn run(
         None => session.result(question, &session.ask(question)?)?,
     };
     let film = if session.is_filmed() { frames(&session.model, &file) } else { Vec::new() };
-    let file = session.answer_seen(terminal, own, Seen::Scene(film), file)?;
+    let file = session.answer_seen(terminal, own, Depicted::Scene(film), file)?;
     if let Some(csv) = csv {
         csv.write(&path::csv(&file)?)?;
     }

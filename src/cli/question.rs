@@ -35,7 +35,7 @@ use voussoir::{
 };
 
 /// What a page shows beside an answer.
-pub enum Seen {
+pub enum Depicted {
     /// The scene with the evidence of the answer, and what was filmed of a simulation.
     Scene(Vec<Frame>),
     /// The same, with charts of what was filmed.
@@ -261,7 +261,7 @@ impl<'a> Session<'a> {
         own: &[String],
         file: ResultFile,
     ) -> anyhow::Result<ResultFile> {
-        self.answer_seen(terminal, own, Seen::Scene(Vec::new()), file)
+        self.answer_seen(terminal, own, Depicted::Scene(Vec::new()), file)
     }
 
     /// As [`Self::answer`], and says what a page shows.
@@ -269,7 +269,7 @@ impl<'a> Session<'a> {
         &self,
         terminal: &Terminal,
         own: &[String],
-        seen: Seen,
+        seen: Depicted,
         mut file: ResultFile,
     ) -> anyhow::Result<ResultFile> {
         if let Some(s) = &file.simulation {
@@ -296,13 +296,13 @@ impl<'a> Session<'a> {
         if self.is_filmed() {
             let mut charts = Vec::new();
             let (mut view, drawn) = match seen {
-                Seen::Charted(film, own) => {
+                Depicted::Charted(film, own) => {
                     charts = own;
                     (View::new(&self.model, &file, film)?, None)
                 }
-                Seen::Scene(film) => (View::new(&self.model, &file, film)?, None),
-                Seen::Other(view) => (*view, None),
-                Seen::Drawn(view) => (View::new(&self.model, &file, Vec::new())?, Some(*view)),
+                Depicted::Scene(film) => (View::new(&self.model, &file, film)?, None),
+                Depicted::Other(view) => (*view, None),
+                Depicted::Drawn(view) => (View::new(&self.model, &file, Vec::new())?, Some(*view)),
             };
             view.hides_supports = self.pictures.hides_supports();
             if let Some(report) = &self.report {

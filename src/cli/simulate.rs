@@ -6,7 +6,7 @@ use super::{
     claim,
     exit::Exit,
     ground,
-    question::{Seen, Session},
+    question::{Depicted, Session},
     terminal::Terminal,
 };
 use anyhow::{Context, bail};
@@ -89,7 +89,7 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
     };
     let mut file = saved::simulated(&session.scene, &session.model, assessment, outcome);
     file.doubt = doubt(&answer, &session.model, &session.control());
-    let file = session.answer_seen(terminal, &args.options(), Seen::Scene(film), file)?;
+    let file = session.answer_seen(terminal, &args.options(), Depicted::Scene(film), file)?;
     // What is proved to fall does not stand because it was seen to.
     let falls = matches!(file.answer.verdict(), Some(Verdict::Unstable | Verdict::Conditional));
     Ok(match file.answer.fate() {

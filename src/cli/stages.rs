@@ -4,7 +4,7 @@ use super::{
     args::Stages as Arguments,
     exit::Exit,
     output::Sink,
-    question::{Seen, Session, verdict},
+    question::{Depicted, Session, verdict},
     terminal::Terminal,
 };
 use voussoir::{
@@ -36,9 +36,9 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
     let file = session.result(&question, &answer)?;
     let seen = match worst(&session, &answer, &file) {
         Some((model, file)) if session.pictures().wanted() => {
-            Seen::Drawn(Box::new(View::new(model, &file, Vec::new())?))
+            Depicted::Drawn(Box::new(View::new(model, &file, Vec::new())?))
         }
-        _ => Seen::Scene(Vec::new()),
+        _ => Depicted::Scene(Vec::new()),
     };
     let file = session.answer_seen(terminal, &args.options(), seen, file)?;
     if let Some(csv) = csv {

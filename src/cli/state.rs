@@ -10,10 +10,10 @@ use super::{
 use anyhow::bail;
 use voussoir::{
     analysis::{ControlPoint, Question, StateOptions},
+    elastic::PathEnd,
     proof::state::StateAnswer,
     report::state,
     verdict::Verdict,
-    yielding::PathEnd,
 };
 
 pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {

@@ -8,7 +8,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::{io::IsTerminal, path::Path};
 use voussoir::{
     report::{json, page, study as report},
-    study::{self, Known, cross, extreme, forge, rocking, soak, yielding},
+    study::{self, Known, cross, elastic, extreme, forge, rocking, soak},
 };
 
 pub fn run(args: &Study, terminal: &Terminal) -> anyhow::Result<Exit> {
@@ -159,21 +159,21 @@ pub fn run(args: &Study, terminal: &Terminal) -> anyhow::Result<Exit> {
         return Ok(Exit::Yes);
     }
     if args.yielding {
-        let cases = yielding::yielding_cases()?;
-        bar.set_length(yielding::yielding_count(&cases) as u64);
-        let points = yielding::yielding(&cases, |_| bar.inc(1))?;
+        let cases = elastic::elastic_cases()?;
+        bar.set_length(elastic::elastic_count(&cases) as u64);
+        let points = elastic::elastic(&cases, |_| bar.inc(1))?;
         bar.finish_and_clear();
         if let Some(csv) = csv {
-            csv.write(&report::yielding_csv(&points)?)?;
+            csv.write(&report::elastic_csv(&points)?)?;
         }
         if let Some(folder) = &args.svg {
             Sink::open(Some(&folder.join("yielding.svg")))?
-                .write(&report::yielding_chart(&points)?)?;
+                .write(&report::elastic_chart(&points)?)?;
         }
         if args.json {
             terminal::print(&json::pretty(&points)?)?;
         } else {
-            terminal.page(&report::yielding_text(&points, layout))?;
+            terminal.page(&report::elastic_text(&points, layout))?;
         }
         return Ok(Exit::Yes);
     }

@@ -40,7 +40,7 @@ pub(super) struct Springs {
 /// A place that moves with a block: the arm from its centre of mass at the start, or, on the
 /// ground, where it is.
 #[derive(Clone, Copy)]
-struct Place {
+struct Anchor {
     block: Option<usize>,
     arm: Vector3<f64>,
 }
@@ -48,10 +48,10 @@ struct Place {
 /// How a member pulls.
 enum Course {
     /// Along the straight pieces between these places.
-    Line(Vec<Place>),
+    Line(Vec<Anchor>),
     /// Along `direction` on the first place and against it on the second; the direction turns with
     /// a block, where one is named.
-    Push { on: Place, from: Place, direction: Vector3<f64>, turns_with: Option<usize> },
+    Push { on: Anchor, from: Anchor, direction: Vector3<f64>, turns_with: Option<usize> },
 }
 
 /// One member, in the engine's units.
@@ -78,7 +78,7 @@ struct Leg {
 impl Springs {
     /// The members of a scene, for steps of length `dt`.
     pub fn new(interfaces: &Interfaces, bodies: &[Body], units: &Units, dt: f64) -> Self {
-        let moved = |place: &Place| place.block.filter(|&i| !bodies[i].support);
+        let moved = |place: &Anchor| place.block.filter(|&i| !bodies[i].support);
         let mut list: Vec<Spring> = interfaces
             .members
             .iter()
@@ -149,7 +149,7 @@ impl Springs {
     }
 }
 
-impl Place {
+impl Anchor {
     fn start(&self, bodies: &[Body]) -> Vector3<f64> {
         self.block.map_or(self.arm, |i| bodies[i].center + self.arm)
     }
@@ -159,7 +159,7 @@ impl Spring {
     fn of(member: &Member, bodies: &[Body], units: &Units) -> Option<Self> {
         let place = |block: Option<usize>, at: &Vector3<f64>| {
             let at = units.place(*at);
-            Place { block, arm: block.map_or(at, |i| at - bodies[i].center) }
+            Anchor { block, arm: block.map_or(at, |i| at - bodies[i].center) }
         };
         let course = match &member.action {
             Action::Line(anchors) => {
@@ -188,7 +188,7 @@ impl Spring {
         Some(spring)
     }
 
-    fn places(&self) -> impl Iterator<Item = &Place> {
+    fn places(&self) -> impl Iterator<Item = &Anchor> {
         match &self.course {
             Course::Line(places) => places.iter().collect::<Vec<_>>(),
             Course::Push { on, from, .. } => vec![on, from],
@@ -199,7 +199,7 @@ impl Spring {
     /// What it does where the places are now; `turned` turns a direction with a block.
     fn legs(
         &self,
-        at: &dyn Fn(&Place) -> Vector3<f64>,
+        at: &dyn Fn(&Anchor) -> Vector3<f64>,
         turned: &dyn Fn(Vector3<f64>, usize) -> Vector3<f64>,
     ) -> Vec<Leg> {
         match &self.course {
@@ -209,7 +209,7 @@ impl Spring {
                     let other = points.get(other?)?;
                     (other - points[k]).try_normalize(0.0)
                 };
-                let leg = |(k, place): (usize, &Place)| {
+                let leg = |(k, place): (usize, &Anchor)| {
                     let before = towards(k, k.checked_sub(1)).unwrap_or_default();
                     let after = towards(k, Some(k + 1)).unwrap_or_default();
                     Leg { block: place.block, at: points[k], direction: before + after }

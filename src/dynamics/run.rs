@@ -204,7 +204,7 @@ struct Show {
 }
 
 /// The state of one run.
-struct State {
+struct RunState {
     /// The block that moved farthest for its thickness, and how far relative to it.
     farthest: (usize, f64),
     /// Largest displacement over thickness at this time.
@@ -263,14 +263,14 @@ impl Stage<'_> {
         let mut springs = Springs::new(&self.model.interfaces, self.bodies, &self.units, dt);
         let mut pulls = Pulls::new();
         let (mut steps, mut resting) = (0, 0.0);
-        let mut state = State {
+        let mut state = RunState {
             farthest: (self.model.assembly.free().next().unwrap_or(0), 0.0),
             now: 0.0,
             energy: 0.0,
             fallen: false,
         };
         let (mut first_motion, mut frames, mut fell_at) = (Vec::new(), Vec::new(), None);
-        let moment = |world: &World, time, state: &State| {
+        let moment = |world: &World, time, state: &RunState| {
             self.settings.every_step.then(|| self.frame(world, fidelity, time, state))
         };
         if self.settings.frames > 0 || self.settings.every_step {
@@ -452,7 +452,7 @@ impl Stage<'_> {
         }
     }
 
-    fn look(&self, world: &World, state: &mut State) {
+    fn look(&self, world: &World, state: &mut RunState) {
         (state.now, state.energy) = (0.0, 0.0);
         for i in self.model.assembly.free() {
             let body = &self.bodies[i];
@@ -490,7 +490,7 @@ impl Stage<'_> {
         self.bodies.iter().enumerate().map(motion).collect()
     }
 
-    fn frame(&self, world: &World, fidelity: Fidelity, time: f64, state: &State) -> Frame {
+    fn frame(&self, world: &World, fidelity: Fidelity, time: f64, state: &RunState) -> Frame {
         let Units { origin, length, time: unit, mass } = self.units;
         let speed = length / unit;
         let mut energy = 0.0;

@@ -55,7 +55,7 @@ impl News {
 /// A piece of news with its number.
 pub type Said = (u64, News, Arc<str>);
 
-struct State {
+struct DeskState {
     wanted: Job,
     taken: u64,
     said: Vec<Said>,
@@ -64,7 +64,7 @@ struct State {
 
 /// The desk.
 pub struct Desk {
-    state: Mutex<State>,
+    state: Mutex<DeskState>,
     changed: Condvar,
     cancel: &'static Cancel,
 }
@@ -80,7 +80,7 @@ impl Desk {
             question: Question::Assess(AssessOptions::default()),
         };
         Self {
-            state: Mutex::new(State { wanted, taken: 0, said: Vec::new(), count: 0 }),
+            state: Mutex::new(DeskState { wanted, taken: 0, said: Vec::new(), count: 0 }),
             changed: Condvar::new(),
             cancel: Cancel::new(),
         }
@@ -91,7 +91,7 @@ impl Desk {
         self.cancel
     }
 
-    fn state(&self) -> MutexGuard<'_, State> {
+    fn state(&self) -> MutexGuard<'_, DeskState> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -157,7 +157,7 @@ impl Desk {
     /// What was said after number `seen`, oldest first; waits that long for something.
     pub fn news(&self, seen: u64, patience: Duration) -> Vec<Said> {
         let state = self.state();
-        let nothing = |s: &mut State| s.said.iter().all(|s| s.0 <= seen);
+        let nothing = |s: &mut DeskState| s.said.iter().all(|s| s.0 <= seen);
         let (state, _) = self
             .changed
             .wait_timeout_while(state, patience, nothing)

@@ -14,8 +14,8 @@ use super::{
 use crate::{
     analysis::{
         Answer, Control, KinematicOptions, Law, Question, ask,
-        reuse::{Keys, Reuse},
-        still::Still,
+        implied::Still,
+        model_cache::{Keys, Reuse},
     },
     deadline::Deadline,
     error::{InputError, JsonPath},

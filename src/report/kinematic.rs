@@ -27,27 +27,27 @@ fn said(file: &ResultFile) -> Result<&KinematicAnswer, CurveError> {
 
 /// A point of the curve: way of the control point, m, acceleration, m/s², load factor with its
 /// ends.
-struct Point {
+struct CurvePoint {
     way: f64,
     acceleration: f64,
     factor: [f64; 3],
 }
 
 /// Of the curve from which limit states are read.
-fn points(file: &ResultFile, a: &KinematicAnswer) -> Vec<Point> {
+fn points(file: &ResultFile, a: &KinematicAnswer) -> Vec<CurvePoint> {
     points_of(file, a, file.path.as_ref())
 }
 
 /// Of the curve with members, as long as they hold.
-fn points_with_members(file: &ResultFile, a: &KinematicAnswer) -> Vec<Point> {
+fn points_with_members(file: &ResultFile, a: &KinematicAnswer) -> Vec<CurvePoint> {
     points_of(file, a, file.path_with_members.as_ref())
 }
 
-fn points_of(file: &ResultFile, a: &KinematicAnswer, path: Option<&PathResult>) -> Vec<Point> {
+fn points_of(file: &ResultFile, a: &KinematicAnswer, path: Option<&PathResult>) -> Vec<CurvePoint> {
     let gravity = file.scene.input.gravity.iter().map(|c| c * c).sum::<f64>().sqrt();
     let (Some(path), Some(p)) = (path, &a.numbers.participation) else { return Vec::new() };
     let point = |point: &check::proof::path::PathPoint| match point.certificate.claim {
-        Some(Claim::LoadFactor { value, lower, upper }) => Some(Point {
+        Some(Claim::LoadFactor { value, lower, upper }) => Some(CurvePoint {
             way: point.value,
             acceleration: p.acceleration(value, gravity, a.fc),
             factor: [value, lower, upper],
@@ -150,7 +150,7 @@ pub fn page_chart(file: &ResultFile) -> Option<Chart> {
         hints: points.iter().map(|p| hint(p.0, p.1)).collect(),
         ..Series::default()
     };
-    let drawn = |list: &[Point]| {
+    let drawn = |list: &[CurvePoint]| {
         list.iter().map(|p| (ratio.unwrap_or(1.0) * p.way, p.acceleration)).collect()
     };
     let mut all = Vec::new();
@@ -191,7 +191,7 @@ const TIED: RGBColor = plot::GREEN;
 pub fn chart(file: &ResultFile) -> Result<String, CurveError> {
     let a = said(file)?;
     let ratio = a.numbers.capacity.map(|c| c.d_over_control);
-    let drawn = |list: Vec<Point>| -> Vec<(f64, f64)> {
+    let drawn = |list: Vec<CurvePoint>| -> Vec<(f64, f64)> {
         list.iter().map(|p| (ratio.unwrap_or(1.0) * p.way, p.acceleration)).collect()
     };
     let (exact, tied) = (drawn(points(file, a)), drawn(points_with_members(file, a)));

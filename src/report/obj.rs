@@ -3,7 +3,7 @@
 
 use super::{
     drawing::sized,
-    view::{Body, View, ViewPart, ViewPose, ViewShape},
+    view::{BlockView, View, ViewPart, ViewPose, ViewShape},
     vtk::ball,
 };
 use base::{number::short, plain::printable};
@@ -83,7 +83,7 @@ fn moved<'a>(view: &'a View) -> (String, Box<dyn Fn(usize) -> ViewPose + 'a>) {
 }
 
 /// Corners and loops of corners.
-fn mesh(body: &Body) -> (Vec<Vector3<f64>>, Vec<Vec<u32>>) {
+fn mesh(body: &BlockView) -> (Vec<Vector3<f64>>, Vec<Vec<u32>>) {
     match &body.shape {
         ViewShape::Surface(s) => (s.corners.clone(), s.pieces.clone()),
         ViewShape::Sphere(radius) => {

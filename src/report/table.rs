@@ -2,7 +2,7 @@
 
 use super::{
     cells::{Cell, Table, row},
-    view::{Joint, Mark, View},
+    view::{JointView, Mark, View},
 };
 use check::verdict::mechanism::JointMotion as Kind;
 use model::interface::ContactKind;
@@ -123,7 +123,7 @@ fn motion(view: &View, joint: usize) -> [Cell; 4] {
 }
 
 /// The columns that do not depend on the forces.
-fn head(view: &View, joint: &Joint, at: nalgebra::Vector3<f64>) -> Vec<Cell> {
+fn head(view: &View, joint: &JointView, at: nalgebra::Vector3<f64>) -> Vec<Cell> {
     let kind = match joint.kind {
         ContactKind::Face => "face",
         ContactKind::Edge => "edge",

@@ -8,7 +8,7 @@ use super::{
     records,
     sampling::{SOBOL, Sampler},
 };
-use analysis::{Question, reuse::Keys};
+use analysis::{Question, model_cache::Keys};
 use base::{
     error::{Finding, InputError, JsonPath},
     limits,
@@ -133,8 +133,8 @@ impl Sweep {
             let path = path.key("pointer");
             let own = vary.pointer.strip_prefix("/question").filter(|rest| rest.starts_with('/'));
             let (place, text) = match own {
-                Some(rest) => (Place::Question(&plan, &question), rest),
-                None => (Place::Scene(&scene), vary.pointer.as_str()),
+                Some(rest) => (Target::Question(&plan, &question), rest),
+                None => (Target::Scene(&scene), vary.pointer.as_str()),
             };
             let pointer = match vary.words() {
                 None => Pointer::find(text, place.value()),
@@ -296,12 +296,12 @@ fn question_of(value: Value) -> Result<Question, InputError> {
 
 /// What numbers and words are put into.
 #[derive(Clone, Copy)]
-enum Place<'a> {
+enum Target<'a> {
     Scene(&'a Value),
     Question(&'a Plan, &'a Value),
 }
 
-impl Place<'_> {
+impl Target<'_> {
     fn value(&self) -> &Value {
         match self {
             Self::Scene(value) | Self::Question(_, value) => value,
@@ -327,10 +327,10 @@ impl Place<'_> {
 }
 
 /// A scene or question must be able to take numbers there; of what kind is tried out.
-fn fits(pointer: &Pointer, axis: &Axis, place: Place) -> Result<(), InputError> {
+fn fits(pointer: &Pointer, axis: &Axis, place: Target) -> Result<(), InputError> {
     let scene = place.value();
     let with = |number: f64| place.takes(pointer, &number.into());
-    if let Place::Question(..) = place {
+    if let Target::Question(..) = place {
         // A question checks its numbers: only those that come are tried.
         return with(axis.quantile(0.5)).map_err(|e| {
             let text = format!("the question has no such number: {}", where_and_what(&e));
@@ -362,7 +362,7 @@ fn where_and_what(e: &InputError) -> String {
 }
 
 /// As [`fits`], of words. Paths are relative to their list.
-fn words_fit(pointer: &Pointer, words: &[Parameter], place: Place) -> Result<(), InputError> {
+fn words_fit(pointer: &Pointer, words: &[Parameter], place: Target) -> Result<(), InputError> {
     for (k, word) in words.iter().enumerate() {
         place.takes(pointer, word).map_err(|e| {
             let what = place.word();

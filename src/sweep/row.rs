@@ -14,10 +14,10 @@ use analysis::{
     thrust::ThrustEnd,
 };
 use check::{
+    elastic::PathEnd,
     proof::critical::FlipResult,
     rocking,
     verdict::{Rate, Verdict},
-    yielding::PathEnd,
 };
 use dynamics::{Fate, ShakenFate};
 use serde::{Deserialize, Serialize};

@@ -1,7 +1,7 @@
 //! Rows → answers, on as many threads as wanted, each written as it ends.
 
 use super::{Folder, Header, Opened, Row, RowAnswer, RowStatus, RowsFile, Shard, Sweep};
-use analysis::{Control, ask_among, reuse::Reuse};
+use analysis::{Control, ask_among, model_cache::Reuse};
 use base::error::RowsError;
 use cholesky::parallel;
 use solve::deadline::Deadline;

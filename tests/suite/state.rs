@@ -6,6 +6,7 @@ use proptest::prelude::*;
 use serde_json::{Value, json};
 use voussoir::{
     analysis::{Answer, Control, ControlPoint, Question, StateOptions, ask, assess, coulomb},
+    elastic::{EventKind, Grip, PathEnd, Quadrature, Touch},
     interface::prepare,
     proof::{
         self, ResultFile, saved,
@@ -15,7 +16,6 @@ use voussoir::{
     scene::{Scene, read_str},
     sweep::{RowAnswer, RowStatus},
     verdict::Verdict,
-    yielding::{EventKind, Grip, PathEnd, Quadrature, Touch},
 };
 
 fn scene(value: Value) -> Scene {

@@ -5,10 +5,10 @@ use crate::ask::prove;
 use serde_json::{Value, json};
 use voussoir::{
     analysis::{Control, Question, StateOptions, ask},
+    elastic::EventKind,
     interface::prepare,
     proof::{self, ResultFile, member::MemberState, saved, state::StateAnswer},
     scene::{Scene, read_str},
-    yielding::EventKind,
 };
 
 fn scene(value: &Value) -> Scene {

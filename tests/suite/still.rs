@@ -3,7 +3,7 @@
 use crate::ask::{model, push, template};
 use serde_json::{Value, json};
 use voussoir::{
-    analysis::{Control, Law, Outcome, assess, limit, still::Still},
+    analysis::{Control, Law, Outcome, assess, implied::Still, limit},
     interface::Model,
     verdict::Verdict,
 };

@@ -14,7 +14,7 @@ use super::{
     answer::DryLoadFactor, crushing::within_strength, distance::Distance, rest::up_to_rest,
     state::state,
 };
-use crate::{Control, LoadFactor, Outcome, attempt::is_large, mend};
+use crate::{Control, LoadFactor, Outcome, ladder::is_large, repair};
 use base::tolerance;
 use check::{
     terms::{Found, StateMotion},
@@ -27,7 +27,7 @@ use model::{
 };
 use solve::{
     EngineSettings, Settings,
-    coulomb::{FixedPoint, Law, Solvers, StoppingCriterion, iterate},
+    coulomb::{CoulombLaw, FixedPoint, Solvers, StoppingCriterion, iterate},
     program::{
         StaticsOptions,
         coulomb::{Contacts, HeldQuantity, Objective},
@@ -148,7 +148,7 @@ fn lowered(scene: &Scene, mut contacts: Contacts, control: &Control, answer: &mu
     });
     let Some((mut from, settings)) = begun else { return };
     answer.solves += from.solves;
-    let mut law = Law::new(&contacts, scale);
+    let mut law = CoulombLaw::new(&contacts, scale);
     for (stage, (delta, stop)) in STAGES.into_iter().enumerate() {
         if control.deadline.is_over() {
             break;
@@ -222,7 +222,7 @@ fn accept(
     let mut forces = contacts.statics.forces(&model.interfaces, &point.forces);
     // Beside tensile strengths the engine's last digits are more than the share allowed of a force.
     if certificate::statics(model, &forces, point.lambda).cone_excess > tolerance::CONE {
-        mend::cut(&model.interfaces, &mut forces);
+        repair::cut(&model.interfaces, &mut forces);
     }
     let rates: Vec<Rate> = contacts
         .statics

@@ -23,7 +23,7 @@ pub use answer::DryLoadFactor;
 pub use check::terms::{Found, StateMotion, StateStep, is_reached, resolution};
 pub(super) use load_factor::{complementary, of_part, part_rests_alone};
 pub(super) use rest::up_to_rest;
-pub use state::{State, refined, state};
+pub use state::{DryState, refined, state};
 
 /// The load factor with dry friction beside its bound, where that is asked for and leaves something
 /// to ask; `level` is the verdict without the live load, where it is known.

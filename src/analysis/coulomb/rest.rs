@@ -12,7 +12,7 @@
 use super::{
     answer::DryLoadFactor,
     distance::slides_nowhere,
-    state::{State, within},
+    state::{DryState, within},
 };
 use crate::{Control, LoadFactor, Outcome};
 use base::{number, tolerance};
@@ -97,7 +97,7 @@ struct Probe<'a> {
     at: &'a (dyn Fn(f64) -> Model + Sync),
     control: &'a Control,
     /// All that came out, with their load factors.
-    seen: Vec<(f64, State)>,
+    seen: Vec<(f64, DryState)>,
     /// Most of them that stay undecided.
     most_open: usize,
     /// Of more than [`MANY`] free blocks: how narrow what lies between rest and motion has to be.
@@ -109,7 +109,7 @@ struct Probe<'a> {
 
 impl Probe<'_> {
     /// The state at a load factor; nothing where the time is over.
-    fn state(&self, lambda: f64) -> Option<(f64, State)> {
+    fn state(&self, lambda: f64) -> Option<(f64, DryState)> {
         if self.control.deadline.is_over() {
             return None;
         }
@@ -126,18 +126,18 @@ impl Probe<'_> {
     }
 
     /// The states that do this, with their load factors.
-    fn seen_to(&self, motion: StateMotion) -> impl Iterator<Item = &(f64, State)> {
+    fn seen_to(&self, motion: StateMotion) -> impl Iterator<Item = &(f64, DryState)> {
         self.seen.iter().filter(move |(_, state)| state.motion == motion)
     }
 
     /// The least load factor at which it moves.
-    fn moves(&self) -> Option<&(f64, State)> {
+    fn moves(&self) -> Option<&(f64, DryState)> {
         self.seen_to(StateMotion::Moves).min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
     /// The greatest load factor at which it rests. What rests above one at which it moves does not
     /// count.
-    fn rests(&self) -> Option<&(f64, State)> {
+    fn rests(&self) -> Option<&(f64, DryState)> {
         let moves = self.moves().map_or(f64::INFINITY, |m| m.0);
         self.seen_to(StateMotion::Rests)
             .filter(|(lambda, _)| *lambda < moves)
@@ -151,7 +151,7 @@ impl Probe<'_> {
 
     /// How much work the next state may be: some more than the dearest that came out from afar.
     fn work(&self) -> usize {
-        let told = |s: &&(f64, State)| s.1.from_afar && s.1.motion != StateMotion::Undecided;
+        let told = |s: &&(f64, DryState)| s.1.from_afar && s.1.motion != StateMotion::Undecided;
         let dearest = self.seen.iter().filter(told).map(|s| s.1.work).max();
         dearest.filter(|_| self.is_slow).map_or(usize::MAX, |work| DEARER * work)
     }
@@ -183,7 +183,7 @@ impl Probe<'_> {
     ) -> DryLoadFactor {
         // What falls by itself is asked nothing else.
         let states = || {
-            let mut seen: Vec<(f64, State)> =
+            let mut seen: Vec<(f64, DryState)> =
                 first.into_iter().flat_map(|at| self.state(at)).collect();
             if seen.iter().all(|(_, state)| state.motion == StateMotion::Rests) {
                 seen.extend(self.states(&ON_THE_WAY_OF_MANY.map(|share| on_the_way(share, bound))));
@@ -203,7 +203,7 @@ impl Probe<'_> {
     }
 
     /// The states at these load factors, all at once, as far as there was time.
-    fn states(&self, at: &[f64]) -> Vec<(f64, State)> {
+    fn states(&self, at: &[f64]) -> Vec<(f64, DryState)> {
         let one = |lambda: &f64| self.state(*lambda);
         let states = parallel::map(0, at, one).unwrap_or_else(|_| at.iter().map(one).collect());
         states.into_iter().flatten().collect()

@@ -11,7 +11,7 @@
 //! have slid to, and the loads are put on at once.
 
 use super::crushing::within_strength;
-use crate::attempt::Control;
+use crate::ladder::Control;
 use base::tolerance;
 use check::{
     terms::{StateMotion, StateStep},
@@ -34,7 +34,7 @@ use std::time::Instant;
 
 /// The state of a scene under its dead load with dry friction.
 #[derive(Clone, Debug)]
-pub struct State {
+pub struct DryState {
     /// What it does.
     pub motion: StateMotion,
     /// The continuation in ε.
@@ -107,23 +107,23 @@ const STOP: StoppingCriterion = StoppingCriterion { change: 1e-5, solves: 25 };
 
 /// Computes the state; of a symmetric scene from one part of it, and where that leaves it open from
 /// the whole.
-pub fn state(model: &Model, control: &Control) -> State {
+pub fn state(model: &Model, control: &Control) -> DryState {
     continued(model, control, (f64::INFINITY, usize::MAX))
 }
 
-/// The same with no more than about so much [`State::work`] before anything came out.
-pub fn within(model: &Model, control: &Control, work: usize) -> State {
+/// The same with no more than about so much [`DryState::work`] before anything came out.
+pub fn within(model: &Model, control: &Control, work: usize) -> DryState {
     continued(model, control, (f64::INFINITY, work))
 }
 
 /// The same, followed on where it rests down to this ε: contacts then yield as springs beside which
 /// nothing else does.
-pub fn refined(model: &Model, control: &Control, epsilon: f64) -> State {
+pub fn refined(model: &Model, control: &Control, epsilon: f64) -> DryState {
     continued(model, control, (epsilon, usize::MAX))
 }
 
 /// The continuation in ε down to the `least`, with no more work than `most`.
-fn continued(model: &Model, control: &Control, (least, most): (f64, usize)) -> State {
+fn continued(model: &Model, control: &Control, (least, most): (f64, usize)) -> DryState {
     let options =
         StaticsOptions { keep_all: control.keep_all, symmetry: true, ..StaticsOptions::default() };
     let contacts = Contacts::new(model, options);
@@ -157,7 +157,7 @@ impl Following {
         &mut self,
         law: &mut Exact,
         (model, contacts): (&Model, &Contacts),
-        history: &[Seen],
+        history: &[StepOutcome],
         epsilon: &mut f64,
         (most, end): (usize, Deadline),
     ) -> Option<(Solved, f64)> {
@@ -188,10 +188,10 @@ fn of_part(
     mut contacts: Contacts,
     control: &Control,
     (least, most): (f64, usize),
-) -> State {
+) -> DryState {
     let interfaces = &model.interfaces;
     let settings = Settings { tolerance: 1e-10, deadline: control.deadline, ..Settings::default() };
-    let mut answer = State {
+    let mut answer = DryState {
         motion: StateMotion::Undecided,
         steps: Vec::new(),
         forces: Vec::new(),
@@ -204,7 +204,7 @@ fn of_part(
     let mut exactly: Option<Option<Exact>> = None;
     contacts.by_mass();
     let mut newton = Newton::new(&contacts);
-    let mut history: Vec<Seen> = Vec::new();
+    let mut history: Vec<StepOutcome> = Vec::new();
     let mut trail: Vec<(f64, Vec<f64>)> = Vec::new();
     let (mut hopeless, mut astray, mut following) = (0, 0, Following::default());
     let rows = contacts.statics.matrix.rows;
@@ -326,7 +326,7 @@ fn of_part(
             last = Some(from);
             continue;
         }
-        history.push(Seen {
+        history.push(StepOutcome {
             epsilon,
             natural_map_in_loads: moved.natural_map_in_loads,
             accelerations: moved.accelerations,
@@ -424,7 +424,7 @@ fn settled(
 }
 
 /// What one ε left.
-struct Seen {
+struct StepOutcome {
     epsilon: f64,
     /// How far it is from Coulomb's law.
     natural_map_in_loads: f64,
@@ -435,7 +435,12 @@ struct Seen {
 }
 
 /// What the state tells beside those at the ε before it.
-fn decide(history: &[Seen], epsilon: f64, point: &FixedPoint, moved: &Released) -> StateMotion {
+fn decide(
+    history: &[StepOutcome],
+    epsilon: f64,
+    point: &FixedPoint,
+    moved: &Released,
+) -> StateMotion {
     let [.., before] = history else { return StateMotion::Undecided };
     if before.change.max(point.change) > tolerance::COULOMB_SETTLED {
         return StateMotion::Undecided;

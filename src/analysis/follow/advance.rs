@@ -18,7 +18,7 @@
 //! is the greatest load factor.
 
 use super::{program, tracker::Tracker};
-use crate::{Control, assess, mend};
+use crate::{Control, assess, repair};
 use base::tolerance;
 use check::{
     path::Spot,
@@ -36,7 +36,7 @@ use solve::{
 
 /// What a joint does over a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Joint {
+pub(super) enum JointChange {
     /// It touches nowhere.
     Open,
     /// It touches along an edge or at a point.
@@ -55,7 +55,7 @@ pub(super) struct Rested {
     /// Forces there.
     pub forces: Forces,
     /// How each joint touches, and whether it slid in the step that led here.
-    pub joints: Vec<(Joint, bool)>,
+    pub joints: Vec<(JointChange, bool)>,
     /// How the blocks moved in that step, per unit of the parameter.
     pub rates: Vec<Rate>,
     /// The load factor that balances it; 0 where none is asked for.
@@ -550,7 +550,7 @@ impl Tracker<'_> {
     /// These forces, balanced to what counts as balance; others that are, where that is no small
     /// change; nothing where there are none, for then it does not stand.
     fn balanced(&self, model: &Model, mut forces: Forces, lambda: f64) -> Option<Forces> {
-        mend::cut(&model.interfaces, &mut forces);
+        repair::cut(&model.interfaces, &mut forces);
         let left = certificate::statics(model, &forces, lambda).unbalance;
         if self.drive.is_push() {
             // Its proof is that of its load factor, which finds its own forces.
@@ -573,16 +573,16 @@ impl Tracker<'_> {
         &self,
         poses: &[Pose],
         slides: impl Fn(usize) -> bool,
-    ) -> Vec<(Joint, bool)> {
+    ) -> Vec<(JointChange, bool)> {
         (0..self.carried.joints.len())
             .map(|k| {
                 let spots = self.carried.spots(poses, k);
                 let small = tolerance::JOINT_CLOSED * self.carried.size(k);
                 let closed = spots.iter().filter(|s| s.gap.abs() <= small).count();
                 let how = match closed {
-                    0 => Joint::Open,
-                    n if n == spots.len() => Joint::Closed,
-                    _ => Joint::Hinged,
+                    0 => JointChange::Open,
+                    n if n == spots.len() => JointChange::Closed,
+                    _ => JointChange::Hinged,
                 };
                 (how, slides(k))
             })

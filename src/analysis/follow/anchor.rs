@@ -11,7 +11,7 @@
 
 use super::{
     advance::Rested,
-    branch::{Follow, ROOM, State, WIDTH},
+    branch::{BranchPoint, Follow, ROOM, WIDTH},
     point::{End, Event, EventKind, Path, Point},
     program::{self, Hold},
     root::narrow,
@@ -82,7 +82,7 @@ impl<'a> Anchor<'a> {
         how: &Follow,
         (whole, begin): (
             &dyn Fn(Path) -> Path,
-            impl FnOnce(&Tracker, &Follow, State, &mut Path) -> Result<State, End>,
+            impl FnOnce(&Tracker, &Follow, BranchPoint, &mut Path) -> Result<BranchPoint, End>,
         ),
     ) -> Path {
         let carried = Carried::new(&self.here.model);
@@ -101,7 +101,7 @@ impl<'a> Anchor<'a> {
             (from.hears)(&|| whole(self.told(&carried, path(), how)));
         };
         let tracker = Tracker { carried: &carried, drive: &drive, meets: &meets, hears, ..*from };
-        let state = State {
+        let state = BranchPoint {
             value: 0.0,
             poses: vec![Pose::start(); self.poses.len()],
             closed: self.all(),
@@ -219,8 +219,8 @@ impl Tracker<'_> {
         if !opens.is_empty() {
             path.events.push(event(EventKind::Opens, opens, Vec::new()));
         }
-        let begin = |tracker: &Tracker, how: &Follow, state: State, path: &mut Path| {
-            tracker.run(how, State { closed: turn.closed, ..state }, path)
+        let begin = |tracker: &Tracker, how: &Follow, state: BranchPoint, path: &mut Path| {
+            tracker.run(how, BranchPoint { closed: turn.closed, ..state }, path)
         };
         let before = path.clone();
         let whole = |own: Path| before.clone().and(own);
@@ -237,10 +237,11 @@ impl Tracker<'_> {
         let held = self.held(value, poses.clone(), &|k| slid[k]);
         let held = held.filter(|(room, _)| *room >= ROOM).map(|(_, turn)| turn.closed);
         let anchor = Anchor::new(self.carried, value, poses);
-        let begin = |tracker: &Tracker, how: &Follow, state: State, path: &mut Path| match held {
-            Some(closed) => tracker.run(how, State { closed, ..state }, path),
-            None => tracker.leg(how, state, path, true),
-        };
+        let begin =
+            |tracker: &Tracker, how: &Follow, state: BranchPoint, path: &mut Path| match held {
+                Some(closed) => tracker.run(how, BranchPoint { closed, ..state }, path),
+                None => tracker.leg(how, state, path, true),
+            };
         anchor.follow(self, how, (&|path| path, begin))
     }
 

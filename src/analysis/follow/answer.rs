@@ -8,8 +8,8 @@ use super::{
     tracker::{meets, size},
 };
 use crate::{
-    Claims, Control, LoadFactor, Proved, SettleOptions, assess, coulomb, limit, mend,
-    question::PushOptions,
+    Claims, Control, LoadFactor, Proved, SettleOptions, assess, coulomb, limit,
+    question::PushOptions, repair,
 };
 use base::{
     error::{InputError, JsonPath},
@@ -420,7 +420,7 @@ fn linkage_proof(
     }
     let model = &found.model;
     let mut forces = carried_forces(carried, found, point, poses);
-    mend::cut(&model.interfaces, &mut forces);
+    repair::cut(&model.interfaces, &mut forces);
     let rates = point.rates.clone();
     let upper = claim::upper_bound(motion::motion(model, &rates), || {
         certificate::kinematics(model, &rates, &forces).upper()
@@ -510,7 +510,7 @@ fn slid_forces(carried: &Carried, found: &Displaced, point: &Point, touch: &Touc
             }
         }
     }
-    mend::cut(&found.model.interfaces, &mut forces);
+    repair::cut(&found.model.interfaces, &mut forces);
     forces
 }
 

@@ -82,7 +82,7 @@ pub(super) fn follow(
     let mut path = Path::new();
     // The first mechanism says what members do.
     let holds = vec![Hold::Idle; start.interfaces.members.len()];
-    let first = tracker.leg(how, State { value, poses, closed, holds }, &mut path, true);
+    let first = tracker.leg(how, BranchPoint { value, poses, closed, holds }, &mut path, true);
     path.end = tracker.goes_on(how, first, &mut path);
     path
 }
@@ -91,7 +91,7 @@ pub(super) fn follow(
 const LEGS: usize = 200;
 
 /// A pose at which a mechanism is to be found.
-pub(super) struct State {
+pub(super) struct BranchPoint {
     pub value: f64,
     pub poses: Vec<Pose>,
     pub closed: Vec<Vec<usize>>,
@@ -106,7 +106,12 @@ pub(super) struct Trial {
 
 impl Tracker<'_> {
     /// From the end of one leg to the end of the path.
-    pub(super) fn goes_on(&self, how: &Follow, first: Result<State, End>, path: &mut Path) -> End {
+    pub(super) fn goes_on(
+        &self,
+        how: &Follow,
+        first: Result<BranchPoint, End>,
+        path: &mut Path,
+    ) -> End {
         let mut next = first;
         for _ in 0..LEGS {
             match next {
@@ -121,10 +126,10 @@ impl Tracker<'_> {
     pub(super) fn leg(
         &self,
         how: &Follow,
-        state: State,
+        state: BranchPoint,
         path: &mut Path,
         first: bool,
-    ) -> Result<State, End> {
+    ) -> Result<BranchPoint, End> {
         let stuck = |text: &str| End::Stuck(text.to_string());
         let next = program::next(self.carried, &state.poses, &state.closed, self.drive)
             .ok_or_else(|| {
@@ -163,7 +168,7 @@ impl Tracker<'_> {
                 Err(_) => End::Slides(k),
             });
         }
-        self.run(how, State { closed: next.closed, holds: next.holds, ..state }, path)
+        self.run(how, BranchPoint { closed: next.closed, holds: next.holds, ..state }, path)
     }
 
     /// Whether the control point moves where it is to go.
@@ -178,9 +183,14 @@ impl Tracker<'_> {
     }
 
     /// Follows one linkage until it no longer holds.
-    pub(super) fn run(&self, how: &Follow, state: State, path: &mut Path) -> Result<State, End> {
+    pub(super) fn run(
+        &self,
+        how: &Follow,
+        state: BranchPoint,
+        path: &mut Path,
+    ) -> Result<BranchPoint, End> {
         let stuck = |text: &str| End::Stuck(text.to_string());
-        let State { value, poses, closed, holds } = state;
+        let BranchPoint { value, poses, closed, holds } = state;
         let linkage = self.linkage(&closed, &holds);
         let place = linkage.place(&poses);
         let at =
@@ -230,7 +240,7 @@ impl Tracker<'_> {
         here: &mut (f64, Trial),
         closed: &[Vec<usize>],
         path: &mut Path,
-    ) -> Result<State, End> {
+    ) -> Result<BranchPoint, End> {
         let stuck = |text: &str| End::Stuck(text.to_string());
         let holds = &linkage.holds;
         let mut step = how.step;
@@ -343,7 +353,7 @@ impl Tracker<'_> {
         there: (f64, Trial),
         closed: &[Vec<usize>],
         path: &mut Path,
-    ) -> Result<State, End> {
+    ) -> Result<BranchPoint, End> {
         let stuck = |text: &str| End::Stuck(text.to_string());
         let width = WIDTH * there.0;
         let gap = |at: &At| self.deepest(&at.place.poses, closed).map_or(1.0, |c| c.gap - OVERLAP);
@@ -393,7 +403,7 @@ impl Tracker<'_> {
             path.points.push(self.point(low.0, (linkage, &low.2), closed, &m));
         }
         let holds = linkage.holds.clone();
-        Ok(State { value: low.0, poses: low.2.place.poses, closed: now, holds })
+        Ok(BranchPoint { value: low.0, poses: low.2.place.poses, closed: now, holds })
     }
 
     /// Forces cease: another joint opens, steadily or by a jump, or it falls.
@@ -405,7 +415,7 @@ impl Tracker<'_> {
         beyond: (f64, Trial),
         closed: &[Vec<usize>],
         path: &mut Path,
-    ) -> Result<State, End> {
+    ) -> Result<BranchPoint, End> {
         let stuck = |text: &str| End::Stuck(text.to_string());
         if let Some(m) = &low.1.margin {
             path.points.push(self.point(low.0, (old, &low.1.at), closed, m));
@@ -442,12 +452,12 @@ impl Tracker<'_> {
                 path.events.push(event(EventKind::Opens, opens, Vec::new(), 0.0));
                 // Straight on: a program at this very pose would not tell this branch from others.
                 let state =
-                    State { value: beyond.0, poses: beyond.1.at.place.poses, closed, holds };
+                    BranchPoint { value: beyond.0, poses: beyond.1.at.place.poses, closed, holds };
                 self.run(how, state, path)
             }
             Landing::Elsewhere { poses, closed, closes, jump } => {
                 path.events.push(event(EventKind::Jumps, opens, closes, jump));
-                Ok(State { value: beyond.0, poses, closed, holds })
+                Ok(BranchPoint { value: beyond.0, poses, closed, holds })
             }
             Landing::Nowhere(turn) => {
                 let opens = match turn {

@@ -117,13 +117,13 @@ pub fn explain(model: &Model, cracks: &Cracks) -> Result<Vec<Explanation>, Input
 }
 
 /// A crack at a corner of a joint.
-struct Seen {
+struct LocatedCrack {
     joint: usize,
     point: usize,
     width: Option<f64>,
 }
 
-fn located(model: &Model, cracks: &Cracks) -> Result<Vec<Seen>, InputError> {
+fn located(model: &Model, cracks: &Cracks) -> Result<Vec<LocatedCrack>, InputError> {
     let root = JsonPath::root().key("cracks");
     if cracks.cracks.is_empty() {
         return Err(InputError::at(root, "there are no cracks to explain"));
@@ -154,13 +154,13 @@ fn located(model: &Model, cracks: &Cracks) -> Result<Vec<Seen>, InputError> {
         let points = model.interfaces.list[joint].points.iter().enumerate();
         let far = |p: &Vector3<f64>| sign * (p - to).norm();
         let nearest = points.min_by(|(_, p), (_, q)| far(p).total_cmp(&far(q)));
-        Ok(Seen { joint, point: nearest.map_or(0, |(p, _)| p), width: crack.width })
+        Ok(LocatedCrack { joint, point: nearest.map_or(0, |(p, _)| p), width: crack.width })
     };
     cracks.cracks.iter().enumerate().map(one).collect()
 }
 
 /// What a mechanism makes of the cracks.
-fn compare(model: &Model, rates: &[Rate], seen: &[Seen]) -> Explanation {
+fn compare(model: &Model, rates: &[Rate], seen: &[LocatedCrack]) -> Explanation {
     let list = &model.interfaces.list;
     let opening = |f: &Interface, p: &Vector3<f64>| {
         let parts = at(&model.assembly, rates, f.b, p) - at(&model.assembly, rates, f.a, p);
@@ -169,7 +169,7 @@ fn compare(model: &Model, rates: &[Rate], seen: &[Seen]) -> Explanation {
     let widest: Vec<f64> =
         list.iter().map(|f| f.points.iter().map(|p| opening(f, p)).fold(0.0, f64::max)).collect();
     let open = OPEN * widest.iter().copied().fold(0.0, f64::max);
-    let at_crack = |s: &Seen| opening(&list[s.joint], &list[s.joint].points[s.point]);
+    let at_crack = |s: &LocatedCrack| opening(&list[s.joint], &list[s.joint].points[s.point]);
     let explained = seen.iter().filter(|s| open > 0.0 && at_crack(s) > open).count();
     let unseen: Vec<f64> = (0..list.len())
         .filter(|k| widest[*k] > open && !seen.iter().any(|s| s.joint == *k))

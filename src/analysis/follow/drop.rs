@@ -2,7 +2,7 @@
 //! structure to the next equilibrium, or nowhere.
 
 use super::{
-    linkage::{Linkage, OpenBy, Place},
+    linkage::{Configuration, Linkage, OpenBy},
     point::End,
     program::Hold,
     root::narrow,
@@ -53,7 +53,7 @@ pub(super) fn drop(
     closed: &[Vec<usize>],
     holds: &[Hold],
     lost: &[(usize, usize)],
-    from: &Place,
+    from: &Configuration,
     value: f64,
 ) -> Landing {
     let together = step_down(t, closed, holds, lost, from, value, MOST);
@@ -87,7 +87,7 @@ fn step_down(
     closed: &[Vec<usize>],
     holds: &[Hold],
     lost: &[(usize, usize)],
-    from: &Place,
+    from: &Configuration,
     value: f64,
     more: usize,
 ) -> Landing {
@@ -104,11 +104,11 @@ fn step_down(
         lost.iter().map(|&(interface, point)| OpenBy { interface, point, gap }).collect()
     };
     let first: Vec<(usize, usize)> = lost.iter().copied().filter(|l| l.0 == lost[0].0).collect();
-    let close = |lost: &[(usize, usize)], near: &Place, gap: f64| {
+    let close = |lost: &[(usize, usize)], near: &Configuration, gap: f64| {
         linkage.close(near, demand.as_ref(), &open(lost, gap))
     };
     let lost = if close(lost, &from, FIRST * t.size).is_some() { lost } else { &first[..] };
-    let power = |a: &Place, b: &Place| power(t, &linkage, a, b, lost);
+    let power = |a: &Configuration, b: &Configuration| power(t, &linkage, a, b, lost);
     // Does the motion that opens them gain power right away?
     let Some(near) = close(lost, &from, FIRST * t.size) else {
         return Landing::Lost("the joint that is about to open cannot".into());
@@ -133,7 +133,7 @@ fn step_down(
             }
             continue;
         };
-        let overlap = |p: &Place| {
+        let overlap = |p: &Configuration| {
             t.open(&p.poses, closed)
                 .iter()
                 .filter(|c| !lost.contains(&(c.interface, c.point)))
@@ -178,8 +178,8 @@ fn landed(
     t: &Tracker,
     closed: &[Vec<usize>],
     holds: &[Hold],
-    from: &Place,
-    place: &Place,
+    from: &Configuration,
+    place: &Configuration,
     value: f64,
     more: usize,
 ) -> Landing {
@@ -231,13 +231,19 @@ fn landed(
     }
 }
 
-fn way(a: &Place, b: &Place) -> f64 {
+fn way(a: &Configuration, b: &Configuration) -> f64 {
     a.poses.iter().zip(&b.poses).map(|(a, b)| (a.shift - b.shift).norm()).fold(0.0, f64::max)
 }
 
 /// Power of the loads on the way from one place to the next; with a free load factor at what holds
 /// the linkage whose new joint keeps still.
-fn power(t: &Tracker, linkage: &Linkage, a: &Place, b: &Place, lost: &[(usize, usize)]) -> f64 {
+fn power(
+    t: &Tracker,
+    linkage: &Linkage,
+    a: &Configuration,
+    b: &Configuration,
+    lost: &[(usize, usize)],
+) -> f64 {
     let [dead, live] = t.loads(linkage, &a.poses);
     let by = linkage.between(a, b);
     let motions = nalgebra::DMatrix::from_columns(&[by]);
@@ -254,7 +260,11 @@ fn power(t: &Tracker, linkage: &Linkage, a: &Place, b: &Place, lost: &[(usize, u
 }
 
 /// The motion of the linkage in which the new joint does not open any further.
-fn still(linkage: &Linkage, place: &Place, lost: &[(usize, usize)]) -> Option<DVector<f64>> {
+fn still(
+    linkage: &Linkage,
+    place: &Configuration,
+    lost: &[(usize, usize)],
+) -> Option<DVector<f64>> {
     let list: Vec<OpenBy> =
         lost.iter().map(|&(interface, point)| OpenBy { interface, point, gap: 0.0 }).collect();
     let free = linkage.free_with(place, &list);

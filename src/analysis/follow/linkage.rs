@@ -25,7 +25,7 @@ mod turned;
 
 pub use turned::Turned;
 
-struct Body {
+struct Link {
     /// A block of it, a support where it has one.
     lead: usize,
     /// The mean of its blocks' centres of mass at the start.
@@ -45,7 +45,7 @@ pub struct Linkage<'a> {
     start: &'a Model,
     carried: &'a Carried<'a>,
     body_of: Vec<usize>,
-    bodies: Vec<Body>,
+    bodies: Vec<Link>,
     hinges: Vec<Hinge>,
     /// What members do.
     pub holds: Vec<Hold>,
@@ -58,7 +58,7 @@ pub struct Linkage<'a> {
 
 /// Where the bodies of a linkage are.
 #[derive(Clone)]
-pub struct Place {
+pub struct Configuration {
     motions: Vec<Pose>,
     /// The pose of every block.
     pub poses: Vec<Pose>,
@@ -104,7 +104,7 @@ impl<'a> Linkage<'a> {
                 _ => parent[a] = b,
             }
         }
-        let mut bodies: Vec<Body> = Vec::new();
+        let mut bodies: Vec<Link> = Vec::new();
         let mut body_at = vec![usize::MAX; blocks.len()];
         let mut body_of = vec![0; blocks.len()];
         let mut counts = Vec::new();
@@ -117,7 +117,7 @@ impl<'a> Linkage<'a> {
                     unknowns += 6;
                     unknowns - 6
                 });
-                bodies.push(Body { lead: root, center: Vector3::zeros(), column });
+                bodies.push(Link { lead: root, center: Vector3::zeros(), column });
                 counts.push(0.0);
             }
             let body = body_at[root];
@@ -159,8 +159,8 @@ impl<'a> Linkage<'a> {
     }
 
     /// The bodies where their leading blocks are.
-    pub fn place(&self, poses: &[Pose]) -> Place {
-        let motion = |b: &Body| {
+    pub fn place(&self, poses: &[Pose]) -> Configuration {
+        let motion = |b: &Link| {
             let pose = poses[b.lead];
             let c = self.start.assembly.blocks[b.lead].centroid;
             Pose { shift: pose.way(&c, &b.center), turn: pose.turn }
@@ -169,7 +169,7 @@ impl<'a> Linkage<'a> {
         self.placed(motions, DMatrix::zeros(self.unknowns, 0))
     }
 
-    fn placed(&self, motions: Vec<Pose>, free: DMatrix<f64>) -> Place {
+    fn placed(&self, motions: Vec<Pose>, free: DMatrix<f64>) -> Configuration {
         let blocks = &self.start.assembly.blocks;
         let poses = (0..blocks.len())
             .map(|i| {
@@ -178,11 +178,11 @@ impl<'a> Linkage<'a> {
                 Pose { shift, turn: motions[b].turn }
             })
             .collect();
-        Place { motions, poses, free }
+        Configuration { motions, poses, free }
     }
 
     /// Puts bodies of supports where they belong.
-    pub fn drive(&self, place: &Place, supports: &Drive, value: f64) -> Place {
+    pub fn drive(&self, place: &Configuration, supports: &Drive, value: f64) -> Configuration {
         let mut poses = place.poses.clone();
         let mut motions = place.motions.clone();
         for (k, b) in self.bodies.iter().enumerate().filter(|(_, b)| b.column.is_none()) {
@@ -195,7 +195,7 @@ impl<'a> Linkage<'a> {
     }
 
     /// Moves the free bodies by these unknowns.
-    pub fn moved(&self, place: &Place, by: &DVector<f64>) -> Place {
+    pub fn moved(&self, place: &Configuration, by: &DVector<f64>) -> Configuration {
         let mut motions = place.motions.clone();
         for (motion, body) in motions.iter_mut().zip(&self.bodies) {
             if let Some(c) = body.column {
@@ -210,7 +210,7 @@ impl<'a> Linkage<'a> {
 
     fn row(
         &self,
-        place: &Place,
+        place: &Configuration,
         j: &mut DMatrix<f64>,
         row: usize,
         body: usize,
@@ -230,7 +230,7 @@ impl<'a> Linkage<'a> {
     /// Equations and their derivatives at a place.
     fn equations(
         &self,
-        place: &Place,
+        place: &Configuration,
         demand: Option<&Demand>,
         open: &[OpenBy],
     ) -> (DMatrix<f64>, DVector<f64>) {
@@ -288,7 +288,12 @@ impl<'a> Linkage<'a> {
 
     /// Closes the gaps from a place near by (Newton, least change); none where it does not come to
     /// rest.
-    pub fn close(&self, near: &Place, demand: Option<&Demand>, open: &[OpenBy]) -> Option<Place> {
+    pub fn close(
+        &self,
+        near: &Configuration,
+        demand: Option<&Demand>,
+        open: &[OpenBy],
+    ) -> Option<Configuration> {
         let mut place = near.clone();
         let mut best = f64::INFINITY;
         let limit = if open.is_empty() { CLOSED } else { 1e3 * CLOSED };
@@ -316,7 +321,7 @@ impl<'a> Linkage<'a> {
     }
 
     /// The free motions at a place.
-    pub fn free(&self, place: &Place, demand: Option<&Demand>) -> DMatrix<f64> {
+    pub fn free(&self, place: &Configuration, demand: Option<&Demand>) -> DMatrix<f64> {
         if self.unknowns == 0 {
             return DMatrix::zeros(0, 0);
         }
@@ -325,13 +330,18 @@ impl<'a> Linkage<'a> {
     }
 
     /// The free motions at a place in which these corners open no further.
-    pub fn free_with(&self, place: &Place, still: &[OpenBy]) -> DMatrix<f64> {
+    pub fn free_with(&self, place: &Configuration, still: &[OpenBy]) -> DMatrix<f64> {
         let svd = self.equations(place, None, still).0.svd(true, true);
         free(&svd, FREE * svd.singular_values.max())
     }
 
     /// Power of loads on the blocks for every free motion.
-    pub fn power(&self, place: &Place, loads: &[Wrench], motions: &DMatrix<f64>) -> DVector<f64> {
+    pub fn power(
+        &self,
+        place: &Configuration,
+        loads: &[Wrench],
+        motions: &DMatrix<f64>,
+    ) -> DVector<f64> {
         let mut unit = DVector::zeros(self.unknowns);
         let blocks = &self.start.assembly.blocks;
         for (i, w) in loads.iter().enumerate() {
@@ -350,7 +360,7 @@ impl<'a> Linkage<'a> {
     }
 
     /// The motion between two places, in unknowns, to first order.
-    pub fn between(&self, from: &Place, to: &Place) -> DVector<f64> {
+    pub fn between(&self, from: &Configuration, to: &Configuration) -> DVector<f64> {
         let mut by = DVector::zeros(self.unknowns);
         for (k, body) in self.bodies.iter().enumerate() {
             if let Some(c) = body.column {

@@ -1,8 +1,8 @@
 //! Members on the way: they keep their length until they yield.
 
 use super::{
-    branch::{Follow, ROOM, State, Trial, WIDTH},
-    linkage::{Linkage, Place},
+    branch::{BranchPoint, Follow, ROOM, Trial, WIDTH},
+    linkage::{Configuration, Linkage},
     point::{End, Event, EventKind, Path},
     program::{self, Hold},
     root::narrow,
@@ -77,7 +77,7 @@ impl Tracker<'_> {
         there: (f64, Trial, Excess),
         closed: &[Vec<usize>],
         path: &mut Path,
-    ) -> Result<State, End> {
+    ) -> Result<BranchPoint, End> {
         let stuck = |text: &str| End::Stuck(text.to_string());
         let left = |e: &Excess| -e.by;
         let first = self.excess(linkage, &here.1.at.place.poses, closed);
@@ -125,7 +125,7 @@ impl Tracker<'_> {
         if goes && self.is_stable(&onward, &at.place) {
             return self.run(
                 how,
-                State { value: low.0, poses: at.place.poses, closed: closed.to_vec(), holds },
+                BranchPoint { value: low.0, poses: at.place.poses, closed: closed.to_vec(), holds },
                 path,
             );
         }
@@ -140,7 +140,7 @@ impl Tracker<'_> {
 
     /// Whether loads bring back a pose from which its free motion leads away a little; not asked
     /// where the load factor is free, which holds it.
-    fn is_stable(&self, linkage: &Linkage, place: &Place) -> bool {
+    fn is_stable(&self, linkage: &Linkage, place: &Configuration) -> bool {
         const BY: f64 = 1e-6;
         let free = linkage.free(place, None);
         if self.drive.is_push() || free.ncols() != 1 {

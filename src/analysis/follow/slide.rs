@@ -1,7 +1,7 @@
 //! Motions that slide: from step to step under dry friction.
 
 use super::{
-    advance::{Joint, Rested, live_power},
+    advance::{JointChange, Rested, live_power},
     branch::{Follow, Trial, WIDTH},
     linkage::Linkage,
     passed::Passed,
@@ -34,7 +34,7 @@ const FAILS: usize = 8;
 const ALL_FAILS: usize = 16;
 
 /// Whether a joint, and whether it slides, differs between two poses.
-type Changed<'a> = &'a dyn Fn(&(Joint, bool), &(Joint, bool)) -> bool;
+type Changed<'a> = &'a dyn Fn(&(JointChange, bool), &(JointChange, bool)) -> bool;
 
 impl Tracker<'_> {
     /// Why a motion that slides cannot be followed, where it cannot: a joint of edges or corners,

@@ -2,7 +2,7 @@
 //! and what forces leave.
 
 use super::{
-    linkage::{Linkage, Place},
+    linkage::{Configuration, Linkage},
     point::{End, Path, Point},
     program::{self, Hold, Margin},
     rebalance::rebalanced,
@@ -38,7 +38,7 @@ pub(super) struct Tracker<'a> {
 /// Where a linkage is at a value of the parameter.
 #[derive(Clone)]
 pub(super) struct At {
-    pub place: Place,
+    pub place: Configuration,
     pub load_factor: f64,
 }
 
@@ -66,7 +66,7 @@ impl<'a> Tracker<'a> {
     }
 
     /// Where a linkage is at a value; equilibrium picks what its corners leave free.
-    pub fn at(&self, linkage: &Linkage, near: &Place, value: f64) -> Option<At> {
+    pub fn at(&self, linkage: &Linkage, near: &Configuration, value: f64) -> Option<At> {
         let demand = self.drive.demand(value);
         let driven = linkage.drive(near, self.drive, value);
         let mut place = linkage.close(&driven, demand.as_ref(), &[])?;
@@ -77,8 +77,8 @@ impl<'a> Tracker<'a> {
             return Some(At { place, load_factor });
         }
         let wide = if self.drive.is_push() { linkage.free(&place, None) } else { basis.clone() };
-        let residual = |place: &Place| self.residual(linkage, place, &wide);
-        let go = |place: &Place, by: &DVector<f64>| {
+        let residual = |place: &Configuration| self.residual(linkage, place, &wide);
+        let go = |place: &Configuration, by: &DVector<f64>| {
             linkage.close(&linkage.moved(place, &(&basis * by)), demand.as_ref(), &[])
         };
         let mut best = f64::INFINITY;
@@ -114,7 +114,7 @@ impl<'a> Tracker<'a> {
     fn residual(
         &self,
         linkage: &Linkage,
-        place: &Place,
+        place: &Configuration,
         basis: &DMatrix<f64>,
     ) -> (DVector<f64>, f64) {
         let free = linkage.free(place, None);
@@ -132,7 +132,7 @@ impl<'a> Tracker<'a> {
     }
 
     /// The load factor in equilibrium with a linkage.
-    fn load_factor(&self, linkage: &Linkage, place: &Place, free: &DMatrix<f64>) -> f64 {
+    fn load_factor(&self, linkage: &Linkage, place: &Configuration, free: &DMatrix<f64>) -> f64 {
         if !self.drive.is_push() {
             return 0.0;
         }
@@ -184,7 +184,7 @@ impl<'a> Tracker<'a> {
     }
 
     /// How the blocks of a linkage that is pushed move there.
-    fn mechanism(&self, linkage: &Linkage, place: &Place) -> Vec<Rate> {
+    fn mechanism(&self, linkage: &Linkage, place: &Configuration) -> Vec<Rate> {
         if !self.drive.is_push() {
             return Vec::new();
         }

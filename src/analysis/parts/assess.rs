@@ -4,7 +4,7 @@ use super::{each, left_out, put_rates, scene_forces, scene_rates};
 use crate::{
     Assessment, Control,
     assess::{falls_freely, of_part},
-    coulomb::{State, StateMotion, state},
+    coulomb::{DryState, StateMotion, state},
 };
 use check::{
     terms::Deciding,
@@ -148,7 +148,7 @@ fn merged(model: &Model, parts: &[Part], answers: &[Assessment]) -> Assessment {
         let state = answers[k].state.as_ref()?;
         let all =
             || scene_forces(interfaces, parts.iter().enumerate().map(|(k, part)| (part, own(k))));
-        Some(State {
+        Some(DryState {
             forces: if state.forces.is_empty() { Vec::new() } else { all() },
             ..state.clone()
         })

@@ -5,7 +5,7 @@ use crate::{
     Assessment, Attempt, Bracket, Control, Law, LoadFactor, Outcome,
     assess::of_part as assess_part,
     limit::{of_part as limit_part, of_part_near as limit_part_near},
-    near::Near,
+    warm_start::Near,
 };
 use check::{
     terms::Deciding,

@@ -3,7 +3,7 @@
 use super::{left_out, put_rates, scene_forces};
 use crate::{
     Bracket, Control, Outcome,
-    flip::Flip,
+    critical_value::Flip,
     geometric::{self, Geometric},
     thrust::{ThrustEnd, of_part},
 };

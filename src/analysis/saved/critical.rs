@@ -4,7 +4,7 @@ use super::{certificate, verdict_answer, warn};
 use crate::{
     Assessment, Critical, Proved,
     critical::{Change, Scanned},
-    flip::Probe,
+    critical_value::Probe,
 };
 use check::{
     proof::{

@@ -8,7 +8,7 @@
 //! That a set stands is proved afterwards, as a stage ([`super`]). That no order does with
 //! fewer holds is the outcome of a search through all of them: computed, not proved.
 
-use crate::{Control, known::Known};
+use crate::{Control, part_cache::Known};
 use base::{error::InputError, plane::Sets};
 use check::{
     terms::Order,
@@ -29,7 +29,7 @@ type Blocks = BTreeSet<usize>;
 
 /// What a set of blocks does with some of them held.
 #[derive(Clone)]
-enum Seen {
+enum WithHeld {
     Stands,
     /// It does not: one of these must be held.
     Moves(Vec<usize>),
@@ -71,7 +71,7 @@ struct Search<'a> {
     known: &'a Known,
     /// Free blocks that touch or that a member joins.
     neighbours: Vec<Blocks>,
-    seen: HashMap<(Blocks, Blocks), Seen>,
+    seen: HashMap<(Blocks, Blocks), WithHeld>,
     least: HashMap<Blocks, Least>,
     left: usize,
     /// Some verdict was undecided: what is not found may be there.
@@ -271,7 +271,7 @@ impl<'a> Search<'a> {
             return Ok(known);
         }
         let mut held = Blocks::new();
-        while let Seen::Moves(list) | Seen::Open(list) = self.seen(part, &held)? {
+        while let WithHeld::Moves(list) | WithHeld::Open(list) = self.seen(part, &held)? {
             let Some(&first) = list.first() else { break };
             let stay = part.intersection(before).filter(|i| !held.contains(i)).copied();
             let more: Vec<usize> = stay.collect();
@@ -386,9 +386,9 @@ impl<'a> Search<'a> {
     /// Holds with which a part stands: `held` and up to so many more.
     fn hold(&mut self, part: &Blocks, held: &Blocks, more: usize) -> Result<Option<Blocks>, Halt> {
         let moves = match self.seen(part, held)? {
-            Seen::Stands => return Ok(Some(held.clone())),
-            Seen::Moves(moves) => moves,
-            Seen::Open(may) => {
+            WithHeld::Stands => return Ok(Some(held.clone())),
+            WithHeld::Moves(moves) => moves,
+            WithHeld::Open(may) => {
                 self.open = true;
                 may
             }
@@ -405,9 +405,9 @@ impl<'a> Search<'a> {
         Ok(None)
     }
 
-    fn seen(&mut self, part: &Blocks, held: &Blocks) -> Result<Seen, Halt> {
+    fn seen(&mut self, part: &Blocks, held: &Blocks) -> Result<WithHeld, Halt> {
         if part.len() == held.len() {
-            return Ok(Seen::Stands);
+            return Ok(WithHeld::Stands);
         }
         let key = (part.clone(), held.clone());
         if let Some(seen) = self.seen.get(&key) {
@@ -424,13 +424,13 @@ impl<'a> Search<'a> {
         let verdict = self.known.assess(&model, self.control);
         let all = || part.difference(held).copied().collect();
         let seen = match verdict.verdict {
-            Verdict::Stable => Seen::Stands,
+            Verdict::Stable => WithHeld::Stands,
             Verdict::Unstable => {
                 let moving = self.moving(&model, &verdict.rates);
-                Seen::Moves(if moving.is_empty() { all() } else { moving })
+                WithHeld::Moves(if moving.is_empty() { all() } else { moving })
             }
-            Verdict::Conditional => Seen::Moves(all()),
-            Verdict::Undecided => Seen::Open(all()),
+            Verdict::Conditional => WithHeld::Moves(all()),
+            Verdict::Undecided => WithHeld::Open(all()),
         };
         self.seen.insert(key, seen.clone());
         Ok(seen)

@@ -18,8 +18,8 @@ use super::{
 };
 use crate::Control;
 use check::{
+    elastic::{ElasticState, law::Friction},
     verdict::Rate,
-    yielding::{State, law::Friction},
 };
 use model::assembly::Wrench;
 
@@ -69,7 +69,7 @@ impl Newton<'_> {
     /// gets there.
     pub fn rest(
         &mut self,
-        state: &State,
+        state: &ElasticState,
         loads: &[Wrench],
         from: &[Rate],
         control: &Control,
@@ -90,7 +90,7 @@ impl Newton<'_> {
     /// The same; nothing where they are not balanced after all steps.
     fn relax(
         &mut self,
-        state: &State,
+        state: &ElasticState,
         loads: &[Wrench],
         mut displaced: Vec<Rate>,
         control: &Control,
@@ -128,7 +128,7 @@ impl Newton<'_> {
     /// The same with friction that is rounded less and less.
     fn sharpen(
         &mut self,
-        state: &State,
+        state: &ElasticState,
         loads: &[Wrench],
         mut displaced: Vec<Rate>,
         control: &Control,
@@ -177,7 +177,7 @@ impl Newton<'_> {
     /// it took.
     fn approach(
         &mut self,
-        state: &State,
+        state: &ElasticState,
         loads: &[Wrench],
         mut displaced: Vec<Rate>,
         Goal { friction, enough, most }: Goal,

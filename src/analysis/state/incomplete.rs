@@ -2,7 +2,7 @@
 //! precision, which are kept as long as they do.
 
 use super::equations::Equations;
-use check::yielding::{JointKind, System};
+use check::elastic::{JointKind, System};
 use nalgebra::Vector6;
 use solve::{Blocks, Fronts, Pattern};
 use std::collections::BTreeMap;
@@ -90,7 +90,7 @@ fn flat(list: Vec<Vector6<f64>>) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use check::yielding::{Joints, Quadrature};
+    use check::elastic::{Joints, Quadrature};
     use model::interface::prepare;
     use scene::read_str;
     use serde_json::json;

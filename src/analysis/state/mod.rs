@@ -20,9 +20,9 @@ use super::{
 };
 use base::error::{InputError, JsonPath};
 use check::{
+    elastic::{ElasticState, Joints, Step, System, Track, events},
     terms::Bound,
     verdict::{Evidence, Forces, Rate, Verdict, claim, claim::Claim, no_forces},
-    yielding::{Joints, State, Step, System, Track, events},
 };
 use model::{assembly::Wrench, interface::Model};
 use nalgebra::Vector3;
@@ -51,7 +51,7 @@ pub struct Stated {
     pub steps: usize,
 }
 
-pub use check::yielding::{PathEnd, PathFactor};
+pub use check::elastic::{PathEnd, PathFactor};
 
 /// Forces that balance the dead load.
 #[derive(Clone, Debug)]
@@ -117,7 +117,7 @@ pub(super) fn state(
     }
     let point = options.control.as_ref().map(|c| control_of(model, c)).transpose()?;
     let live = live && !options.dead_only;
-    let start = State::start(model, &joints);
+    let start = ElasticState::start(model, &joints);
     let system = System::new(model, &joints);
     let mut newton = Newton::new(&system);
     let guess = newton.guess(&start, &model.assembly.dead, control);

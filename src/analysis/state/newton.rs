@@ -13,8 +13,8 @@ use super::{
 };
 use crate::Control;
 use check::{
+    elastic::{ElasticState, System, law::Friction},
     verdict::Rate,
-    yielding::{State, System, law::Friction},
 };
 use model::assembly::Wrench;
 use nalgebra::Vector3;
@@ -74,7 +74,12 @@ impl<'a> Newton<'a> {
     }
 
     /// Of these displacements those that are nearest to balance.
-    pub fn nearest(&self, state: &State, loads: &[Wrench], from: Vec<Vec<Rate>>) -> Vec<Rate> {
+    pub fn nearest(
+        &self,
+        state: &ElasticState,
+        loads: &[Wrench],
+        from: Vec<Vec<Rate>>,
+    ) -> Vec<Rate> {
         let size = |q: &Vec<Rate>| self.residual(state, loads, q, 0.0, Friction::Follows).1;
         let best = from.into_iter().map(|q| (size(&q), q));
         best.min_by(|a, b| a.0.total_cmp(&b.0)).map_or_else(|| state.displaced.clone(), |b| b.1)
@@ -83,7 +88,7 @@ impl<'a> Newton<'a> {
     /// The same without glue: where the last state is near.
     pub fn follow(
         &mut self,
-        state: &State,
+        state: &ElasticState,
         loads: &[Wrench],
         from: &[Rate],
         control: &Control,
@@ -95,7 +100,7 @@ impl<'a> Newton<'a> {
     /// `state`; nothing where none were found.
     pub fn balance(
         &mut self,
-        state: &State,
+        state: &ElasticState,
         loads: &[Wrench],
         from: &[Rate],
         control: &Control,
@@ -121,14 +126,19 @@ impl<'a> Newton<'a> {
     }
 
     /// The displacements of glued joints: where a search begins.
-    pub fn guess(&mut self, state: &State, loads: &[Wrench], control: &Control) -> Vec<Rate> {
+    pub fn guess(
+        &mut self,
+        state: &ElasticState,
+        loads: &[Wrench],
+        control: &Control,
+    ) -> Vec<Rate> {
         let start = vec![Rate::zero(); state.displaced.len()];
         self.search(state, loads, start.clone(), 1.0, control).unwrap_or(start)
     }
 
     pub(super) fn search(
         &mut self,
-        state: &State,
+        state: &ElasticState,
         loads: &[Wrench],
         mut displaced: Vec<Rate>,
         glue: f64,
@@ -186,7 +196,7 @@ impl<'a> Newton<'a> {
     /// off.
     pub(super) fn residual(
         &self,
-        state: &State,
+        state: &ElasticState,
         loads: &[Wrench],
         displaced: &[Rate],
         glue: f64,
@@ -215,7 +225,7 @@ impl<'a> Newton<'a> {
 
     fn way(
         &mut self,
-        state: &State,
+        state: &ElasticState,
         displaced: &[Rate],
         glue: f64,
         left: &[f64],
@@ -257,7 +267,7 @@ impl<'a> Newton<'a> {
     /// The tangent and what is left, in the measure of the joints' stiffness.
     pub(super) fn equations(
         &self,
-        state: &State,
+        state: &ElasticState,
         displaced: &[Rate],
         glue: f64,
         friction: Friction,

@@ -1,7 +1,7 @@
 //! Options of the question.
 
 use crate::ControlPoint;
-use check::yielding::Quadrature;
+use check::elastic::Quadrature;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -2,7 +2,7 @@
 
 use super::{
     Machine, Sense,
-    step::{State, Under},
+    step::{Phase, Under},
 };
 use crate::ground::{Jump, Motion, Piece, Shape, When};
 use nalgebra::Vector3;
@@ -124,7 +124,7 @@ impl History {
 #[derive(Clone, Copy, PartialEq)]
 enum Now {
     Rest,
-    In(usize, State),
+    In(usize, Phase),
 }
 
 struct Run<'a> {
@@ -357,7 +357,7 @@ impl Run<'_> {
         [of(0), of(1)].into_iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
-    fn advance(&mut self, piece: &Piece, k: usize, y: State) {
+    fn advance(&mut self, piece: &Piece, k: usize, y: Phase) {
         let Some(sense) = self.machine.senses[k].as_ref() else { return };
         let under = Under { law: &sense.law, piece };
         let t = self.time - piece.start;
@@ -423,7 +423,7 @@ impl Run<'_> {
     }
 
     /// Looks at the farthest point where a step turns back.
-    fn turning(&mut self, under: &Under, t: f64, y: State, h: f64, sign: f64) {
+    fn turning(&mut self, under: &Under, t: f64, y: Phase, h: f64, sign: f64) {
         if y[1] > 0.0 && y[0] + y[1] * h > self.peak {
             let next = under.step(t, y, h).0;
             if next[1] < 0.0 {

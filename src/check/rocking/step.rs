@@ -5,7 +5,7 @@ use super::law::Law;
 use crate::ground::Piece;
 
 /// Coordinate and speed.
-pub(super) type State = [f64; 2];
+pub(super) type Phase = [f64; 2];
 
 /// What is integrated: a law under a piece of the ground's motion.
 #[derive(Clone, Copy)]
@@ -33,22 +33,22 @@ const E: [f64; 7] = [
     -1.0 / 40.0,
 ];
 
-fn each(of: impl Fn(usize) -> f64) -> State {
+fn each(of: impl Fn(usize) -> f64) -> Phase {
     [of(0), of(1)]
 }
 
 impl Under<'_> {
     /// The rates of a state at a time from the start of the piece.
-    pub fn rates(&self, t: f64, [q, u]: State) -> State {
+    pub fn rates(&self, t: f64, [q, u]: Phase) -> Phase {
         [u, self.law.acceleration(q, u, &self.piece.at(t))]
     }
 
     /// The state a step later, and the error that it is estimated to have.
-    pub fn step(&self, t: f64, y: State, h: f64) -> (State, State) {
+    pub fn step(&self, t: f64, y: Phase, h: f64) -> (Phase, Phase) {
         // Written out: sums over tables take three times as long.
         let k1 = self.rates(t, y);
         let at = |sum: [f64; 2]| [y[0] + h * sum[0], y[1] + h * sum[1]];
-        let go = |stage: usize, y: State| self.rates(t + C[stage] * h, y);
+        let go = |stage: usize, y: Phase| self.rates(t + C[stage] * h, y);
         let a = &A;
         let k2 = go(0, at(each(|i| a[0][0] * k1[i])));
         let k3 = go(1, at(each(|i| a[1][0] * k1[i] + a[1][1] * k2[i])));
@@ -76,7 +76,7 @@ impl Under<'_> {
     /// at the start to below at the end (Newton's method with the slope that `of` gives as well,
     /// kept inside its bracket). Steps are taken anew from the start, so that what is found is as
     /// exact as a step.
-    pub fn crossing(&self, t: f64, y: State, h: f64, of: impl Fn(f64, State) -> [f64; 2]) -> f64 {
+    pub fn crossing(&self, t: f64, y: Phase, h: f64, of: impl Fn(f64, Phase) -> [f64; 2]) -> f64 {
         let (mut low, mut high) = (0.0, h);
         let mut x = h;
         let [mut f, mut slope] = of(h, self.step(t, y, h).0);

@@ -47,7 +47,7 @@ pub enum Quadrature {
     Corners,
 }
 
-impl From<Quadrature> for voussoir::yielding::Quadrature {
+impl From<Quadrature> for voussoir::elastic::Quadrature {
     fn from(q: Quadrature) -> Self {
         match q {
             Quadrature::Area => Self::Area,

@@ -12,7 +12,7 @@ use super::{
         rapier::World,
         units::Units,
     },
-    Loads, ONSET, PATIENCE, REPORT, Stage, State, smooth, strengths, unknown_members,
+    Loads, ONSET, PATIENCE, REPORT, RunState, Stage, smooth, strengths, unknown_members,
 };
 use base::{
     error::{Finding, InputError, JsonPath},
@@ -122,7 +122,7 @@ impl Stage<'_> {
         let total = (horizon / dt).ceil().max(1.0) as usize;
         let (mut share, mut calm) = (0.0, (0.0, self.places(&world)));
         let (mut steps, mut resting, mut heard) = (0, 0.0, Instant::now());
-        let mut state = State { farthest: (0, 0.0), now: 0.0, energy: 0.0, fallen: false };
+        let mut state = RunState { farthest: (0, 0.0), now: 0.0, energy: 0.0, fallen: false };
         let mut falls_at = None;
         let stop = loop {
             if steps == total {

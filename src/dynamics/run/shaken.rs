@@ -14,7 +14,7 @@ use super::{
         rapier::World,
         units::Units,
     },
-    Beside, Loads, PATIENCE, Pulls, REPORT, Stage, State, strengths, unknown_members,
+    Beside, Loads, PATIENCE, Pulls, REPORT, RunState, Stage, strengths, unknown_members,
 };
 use base::{
     error::{Finding, FindingCode, InputError, JsonPath},
@@ -192,7 +192,7 @@ impl Stage<'_> {
                 ..BlockMotion::default()
             })
             .collect();
-        let mut state = State {
+        let mut state = RunState {
             farthest: (self.model.assembly.free().next().unwrap_or(0), 0.0),
             now: 0.0,
             energy: 0.0,

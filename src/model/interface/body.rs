@@ -55,13 +55,13 @@ impl Bounds {
 }
 
 /// A block with its boxes.
-pub(super) struct Body<'a> {
+pub(super) struct BoundedBlock<'a> {
     pub block: &'a Block,
     pub bounds: Bounds,
     pub shape: Form<'a>,
 }
 
-/// The shape of a [`Body`].
+/// The shape of a [`BoundedBlock`].
 pub(super) enum Form<'a> {
     Polyhedron(Solidity<'a>),
     /// One sphere, or several rigidly joined: centres and radii.
@@ -106,7 +106,7 @@ pub(super) struct Corner {
     pub outward: Vector3<f64>,
 }
 
-impl<'a> Body<'a> {
+impl<'a> BoundedBlock<'a> {
     /// Makes a block ready.
     pub fn new(block: &'a Block) -> Self {
         match &block.solid {
@@ -137,7 +137,7 @@ impl<'a> Body<'a> {
     }
 }
 
-impl<'a> Body<'a> {
+impl<'a> BoundedBlock<'a> {
     fn of_balls(block: &'a Block, balls: Vec<(Vector3<f64>, f64)>) -> Self {
         let one = |(c, r): &(Vector3<f64>, f64)| Bounds { lo: *c, hi: *c }.loosened(*r);
         let all = |a: Bounds, b: Bounds| Bounds { lo: a.lo.inf(&b.lo), hi: a.hi.sup(&b.hi) };

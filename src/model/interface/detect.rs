@@ -12,7 +12,7 @@
 
 use super::{
     ContactFrame, ContactKind, Interface, Interfaces,
-    body::{Body, Form, Solidity},
+    body::{BoundedBlock, Form, Solidity},
     detect_candidates::candidates,
     faces::{self, Closing, FaceContact, Gap},
     features::{self, Touch},
@@ -50,7 +50,7 @@ pub fn detect_until(
     assembly: &Assembly,
     is_over: &dyn Fn() -> bool,
 ) -> Result<Interfaces, InputError> {
-    let bodies: Vec<Body> = assembly.blocks.iter().map(Body::new).collect();
+    let bodies: Vec<BoundedBlock> = assembly.blocks.iter().map(BoundedBlock::new).collect();
     let by_hand: HashSet<(usize, usize)> =
         assembly.given.iter().map(|g| (g.a.min(g.b), g.a.max(g.b))).collect();
     let mut interfaces = Interfaces::default();
@@ -233,7 +233,7 @@ impl Meeting {
     }
 }
 
-fn meet(a: &Body, b: &Body, limits: &Limits) -> Meeting {
+fn meet(a: &BoundedBlock, b: &BoundedBlock, limits: &Limits) -> Meeting {
     match (&a.shape, &b.shape) {
         (Form::Polyhedron(p), Form::Polyhedron(q)) => polyhedra(a, p, b, q, limits),
         (Form::Balls(one), Form::Balls(other)) => {
@@ -262,7 +262,13 @@ fn round(meeting: spheres::Meeting, sign: f64, limits: &Limits) -> Meeting {
     }
 }
 
-fn polyhedra(a: &Body, p: &Solidity, b: &Body, q: &Solidity, limits: &Limits) -> Meeting {
+fn polyhedra(
+    a: &BoundedBlock,
+    p: &Solidity,
+    b: &BoundedBlock,
+    q: &Solidity,
+    limits: &Limits,
+) -> Meeting {
     if p.polyhedron.is_apart_from(q.polyhedron, limits.near)
         || q.polyhedron.is_apart_from(p.polyhedron, limits.near)
     {

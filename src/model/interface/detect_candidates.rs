@@ -5,7 +5,7 @@
 //! the coordinates.
 
 use super::{
-    body::{Body, Bounds},
+    body::{BoundedBlock, Bounds},
     limits::{self, Limits},
 };
 use base::{
@@ -26,11 +26,11 @@ use scene::ContactSpec;
 /// # Errors
 /// There are more than can be looked at.
 pub(super) fn candidates(
-    bodies: &[Body],
+    bodies: &[BoundedBlock],
     spec: &ContactSpec,
 ) -> Result<Vec<(usize, usize, Limits)>, InputError> {
     let reach = limits::near(spec);
-    let loose = |b: &Body| {
+    let loose = |b: &BoundedBlock| {
         aabb(&b.bounds.loosened(reach * b.block.size + COORDINATE_ROUNDING * b.bounds.reach()))
     };
     let boxes: Vec<Aabb> = bodies.iter().map(loose).collect();

@@ -1,6 +1,6 @@
 //! The tolerances of one pair of blocks, in metres.
 
-use super::body::Body;
+use super::body::BoundedBlock;
 use base::tolerance;
 use nalgebra::Vector3;
 use scene::ContactSpec;
@@ -33,7 +33,7 @@ pub(super) fn near(spec: &ContactSpec) -> f64 {
 }
 
 impl Limits {
-    pub fn of(a: &Body, b: &Body, spec: &ContactSpec) -> Self {
+    pub fn of(a: &BoundedBlock, b: &BoundedBlock, spec: &ContactSpec) -> Self {
         let size = a.block.size.min(b.block.size);
         // The greater block's corners count too: they carry the plane the smaller one lies on.
         let rounding = tolerance::COORDINATE_ROUNDING * a.bounds.reach().max(b.bounds.reach());

@@ -1,6 +1,6 @@
 //! Blocks where they are drawn: in place, or moved.
 
-use crate::view::{Body, Surface, View, ViewPose, ViewShape};
+use crate::view::{BlockView, Surface, View, ViewPose, ViewShape};
 use nalgebra::{Matrix3, Vector3};
 
 /// Where the points of a block go: `p ↦ p + shift + turn (p − c)`, c its centre of mass.
@@ -35,7 +35,7 @@ impl Displacement {
 /// A block where it is drawn.
 pub struct Solid<'a> {
     /// What it is.
-    pub body: &'a Body,
+    pub body: &'a BlockView,
     /// Its geometry.
     pub form: Form<'a>,
     /// Centre of mass.
@@ -63,7 +63,7 @@ pub fn still(view: &View) -> Vec<Solid<'_>> {
 }
 
 /// A block where it goes.
-pub fn posed<'a>(body: &'a Body, way: &Displacement) -> Solid<'a> {
+pub fn posed<'a>(body: &'a BlockView, way: &Displacement) -> Solid<'a> {
     let form = match &body.shape {
         ViewShape::Sphere(radius) => Form::Sphere(*radius),
         ViewShape::Surface(surface) => {
@@ -77,7 +77,7 @@ pub fn posed<'a>(body: &'a Body, way: &Displacement) -> Solid<'a> {
 }
 
 /// Where a point of a block goes.
-pub fn moved(body: &Body, way: &Displacement, p: &Vector3<f64>) -> Vector3<f64> {
+pub fn moved(body: &BlockView, way: &Displacement, p: &Vector3<f64>) -> Vector3<f64> {
     p + way.shift + way.turn * (p - body.center)
 }
 
@@ -116,7 +116,7 @@ impl Solid<'_> {
     }
 }
 
-impl Body {
+impl BlockView {
     /// The greatest distance of a corner from the centre of mass, m.
     pub(super) fn radius(&self) -> f64 {
         match &self.shape {

@@ -1,7 +1,7 @@
 //! Which forces and which motion stand on a drawing: those of the answer that is told first.
 
 use super::body::{Displacement, Solid, posed};
-use crate::view::{Body, Mark, View, ViewMotion, ViewPart, ViewPose, ViewShape, ViewState};
+use crate::view::{BlockView, Mark, View, ViewMotion, ViewPart, ViewPose, ViewShape, ViewState};
 use base::{number::short, tolerance::MECHANISM_REST};
 use nalgebra::Vector3;
 
@@ -125,7 +125,7 @@ impl Movement {
         let frame = view.film.last().filter(|_| view.course.words.is_empty())?;
         let poses = || view.bodies.iter().zip(&frame.blocks);
         let displacements = |by: f64| -> Vec<Displacement> {
-            let pose = |(b, p): (&Body, &dynamics::Pose)| ViewPose {
+            let pose = |(b, p): (&BlockView, &dynamics::Pose)| ViewPose {
                 shift: (p.center - b.center) * by,
                 turn: p.turn.powf(by),
             };

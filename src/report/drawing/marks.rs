@@ -8,7 +8,7 @@ use super::{
     projection::Projection,
     sheet::Sheet,
 };
-use crate::view::{Joint, View, ViewLoad, ViewState};
+use crate::view::{JointView, View, ViewLoad, ViewState};
 use check::verdict::mechanism::JointMotion as Kind;
 use nalgebra::Vector3;
 use std::fmt::Write;
@@ -33,7 +33,7 @@ pub fn joints(sheet: &mut Sheet, view: &View, paper: &Projection) {
 /// The outline of a joint; seen from its edge, its longest line alone.
 fn outline(
     path: &mut String,
-    joint: &Joint,
+    joint: &JointView,
     at: impl Fn(&Vector3<f64>) -> [f64; 2],
     paper: &Projection,
 ) {
@@ -113,7 +113,7 @@ pub fn mechanism(
         .count();
     let radius = if hinges > MANY { 2.6 } else { 4.0 };
     // With the block that goes less far: joints that slide open as well.
-    let at = |joint: &Joint, p: &Vector3<f64>| {
+    let at = |joint: &JointView, p: &Vector3<f64>| {
         let [a, b] =
             [joint.a, joint.b].map(|i| moved(&view.bodies[i], &movement.displacements[i], p));
         paper.at(if (a - p).norm() <= (b - p).norm() { &a } else { &b })

@@ -2,7 +2,7 @@
 
 use super::buffer::{Buffer, VERTICES};
 use crate::{
-    view::{Body, Surface, View, ViewShape},
+    view::{BlockView, Surface, View, ViewShape},
     vtk::ball,
 };
 use nalgebra::Vector3;
@@ -109,7 +109,13 @@ impl Shapes {
     }
 
     /// Plane pieces as fans about the centre of mass, each with its own normal: edges stay sharp.
-    fn surface(&mut self, body: &Body, s: &Surface, material: usize, buffer: &mut Buffer) -> usize {
+    fn surface(
+        &mut self,
+        body: &BlockView,
+        s: &Surface,
+        material: usize,
+        buffer: &mut Buffer,
+    ) -> usize {
         let (mut points, mut normals, mut indices) = (Vec::new(), Vec::new(), Vec::new());
         for piece in &s.pieces {
             let first = points.len() as u32;

@@ -133,7 +133,7 @@ fn bodies(view: &View, units: &Units) -> Value {
         view.bodies.iter().filter_map(|b| b.material.as_deref()).collect();
     materials.sort_unstable();
     materials.dedup();
-    let material = |b: &crate::view::Body| {
+    let material = |b: &crate::view::BlockView| {
         b.material.as_deref().and_then(|m| materials.binary_search(&m).ok()).map_or(0, |k| k + 1)
     };
     let surfaces: Vec<_> = view

@@ -8,7 +8,7 @@
 //! ([`edge_bounds`]), which on a rectangle bent about one axis is N / (A (1 − 2 e / t)).
 
 use super::{Part, Section, percent, quantity};
-use crate::view::{Joint, Resultant, View, ViewPart, ViewState};
+use crate::view::{JointView, Resultant, View, ViewPart, ViewState};
 use model::{
     interface::{Interface, Model},
     strength::crushing::{crushes, edge_bounds},
@@ -112,7 +112,7 @@ fn shares(model: &Model, view: &View, state: &ViewState, k: usize, at: &Resultan
     [way, friction(joint, at), compression(model, joint, &state.forces[k], k, at)]
 }
 
-fn friction(joint: &Joint, at: &Resultant) -> f64 {
+fn friction(joint: &JointView, at: &Resultant) -> f64 {
     let (law, mu) = (&joint.law, joint.law.friction.mu());
     if mu.is_infinite() {
         return f64::NAN;
@@ -129,7 +129,7 @@ fn friction(joint: &Joint, at: &Resultant) -> f64 {
 
 fn compression(
     model: &Model,
-    joint: &Joint,
+    joint: &JointView,
     forces: &[Vector3<f64>],
     k: usize,
     at: &Resultant,

@@ -2,17 +2,17 @@
 
 mod chart;
 mod cross;
+mod elastic;
 mod forge;
 mod rocking;
 mod soak;
-mod yielding;
 
 pub use chart::{StudyChartError, errors, profiles};
 pub use cross::{cross_csv, cross_text};
+pub use elastic::{elastic_chart, elastic_csv, elastic_text};
 pub use forge::{forge_csv, forge_text};
 pub use rocking::{rocking_chart, rocking_csv, rocking_text};
 pub use soak::{soak_csv, soak_text};
-pub use yielding::{yielding_chart, yielding_csv, yielding_text};
 
 use super::{
     cells::{Table, row},

@@ -6,12 +6,12 @@ use super::{
 };
 use base::number::{fixed, point, short};
 use check::{
+    elastic::{EventKind, Grip, PathEnd, PathFactor, Quadrature, Residuals, Touch},
     proof::{
         result::ResultFile,
         state::{Event, JointAnswer},
     },
     verdict::Verdict,
-    yielding::{EventKind, Grip, PathEnd, PathFactor, Quadrature, Residuals, Touch},
 };
 
 /// Rotations (rad) of blocks of any size below this multiple of their displacement (m), and shear forces

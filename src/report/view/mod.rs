@@ -62,9 +62,9 @@ pub struct View {
     /// Its upper corner.
     pub high: Vector3<f64>,
     /// Blocks in scene order.
-    pub bodies: Vec<Body>,
+    pub bodies: Vec<BlockView>,
     /// Joints in the order of the interfaces.
-    pub joints: Vec<Joint>,
+    pub joints: Vec<JointView>,
     /// Loads beside the blocks' own weight.
     pub loads: Vec<ViewLoad>,
     /// Ties, struts, soil and other members, with their forces in the answer.
@@ -89,7 +89,7 @@ pub struct View {
 
 /// A block.
 #[derive(Clone, Debug)]
-pub struct Body {
+pub struct BlockView {
     /// Its name.
     pub id: String,
     /// Held in place.
@@ -106,7 +106,7 @@ pub struct Body {
 
 /// Where two blocks touch.
 #[derive(Clone, Debug)]
-pub struct Joint {
+pub struct JointView {
     /// Index of the first block.
     pub a: usize,
     /// Index of the second block.
@@ -184,10 +184,10 @@ impl View {
     /// Blocks, joints and loads alone.
     pub fn bare(model: &Model) -> Self {
         let assembly = &model.assembly;
-        let bodies: Vec<Body> = assembly
+        let bodies: Vec<BlockView> = assembly
             .blocks
             .iter()
-            .map(|b| Body {
+            .map(|b| BlockView {
                 id: b.id.clone(),
                 support: b.support,
                 material: b.material.clone(),
@@ -196,7 +196,7 @@ impl View {
                 shape: ViewShape::of(&b.solid),
             })
             .collect();
-        let joints = model.interfaces.list.iter().map(|f| Joint {
+        let joints = model.interfaces.list.iter().map(|f| JointView {
             a: f.a,
             b: f.b,
             kind: f.kind,
@@ -259,13 +259,13 @@ fn tipped(up: Vector3<f64>, file: &ResultFile) -> Option<Vector3<f64>> {
 const AROUND: f64 = 0.15;
 
 /// The box of the free blocks, grown towards supports that reach beyond it.
-fn extent(bodies: &[Body]) -> (Vector3<f64>, Vector3<f64>) {
+fn extent(bodies: &[BlockView]) -> (Vector3<f64>, Vector3<f64>) {
     let inf = Vector3::repeat(f64::INFINITY);
     let hull = |want: bool| {
         bodies
             .iter()
             .filter(|b| b.support == want)
-            .map(Body::extent)
+            .map(BlockView::extent)
             .fold((inf, -inf), |(l, h), (bl, bh)| (l.inf(&bl), h.sup(&bh)))
     };
     let (free, held) = (hull(false), hull(true));
@@ -276,7 +276,7 @@ fn extent(bodies: &[Body]) -> (Vector3<f64>, Vector3<f64>) {
     (free.0.inf(&held.0.sup(&(free.0 - rim))), free.1.sup(&held.1.inf(&(free.1 + rim))))
 }
 
-impl Body {
+impl BlockView {
     /// Its bounding box.
     pub fn extent(&self) -> (Vector3<f64>, Vector3<f64>) {
         match &self.shape {

@@ -9,7 +9,7 @@
 //!
 //! R. S. Ball, *A Treatise on the Theory of Screws*, Cambridge 1900.
 
-use super::{Body, ViewPart, pressure};
+use super::{BlockView, ViewPart, pressure};
 use crate::view::ViewShape;
 use analysis::coulomb::Found;
 use check::{
@@ -68,7 +68,7 @@ impl ViewMotion {
         part: ViewPart,
         name: &str,
         rates: Vec<Rate>,
-        bodies: &[Body],
+        bodies: &[BlockView],
     ) -> Option<Self> {
         let reach = bodies.iter().zip(&rates).map(|(b, r)| speed(b, r)).fold(0.0, f64::max);
         if !(reach.is_finite() && reach > 0.0) {
@@ -84,7 +84,7 @@ impl ViewMotion {
     }
 
     /// Small displacements, of joints that yield.
-    fn displacements(rates: Vec<Rate>, bodies: &[Body]) -> Option<Self> {
+    fn displacements(rates: Vec<Rate>, bodies: &[BlockView]) -> Option<Self> {
         let reach = bodies.iter().zip(&rates).map(|(b, r)| speed(b, r)).fold(0.0, f64::max);
         (reach.is_finite() && reach > 0.0).then(|| Self {
             part: ViewPart::Answer,
@@ -115,7 +115,7 @@ impl ViewMotion {
 }
 
 /// The greatest speed of a point of a block.
-fn speed(body: &Body, rate: &Rate) -> f64 {
+fn speed(body: &BlockView, rate: &Rate) -> f64 {
     match &body.shape {
         ViewShape::Sphere(radius) => rate.velocity.norm() + radius * rate.spin.norm(),
         ViewShape::Surface(s) => s
@@ -130,7 +130,7 @@ fn speed(body: &Body, rate: &Rate) -> f64 {
 pub(super) fn of(
     model: &Model,
     file: &ResultFile,
-    bodies: &[Body],
+    bodies: &[BlockView],
 ) -> Result<Vec<ViewMotion>, String> {
     let mut list: Vec<(ViewPart, &str, &Certificate)> = Vec::new();
     let moves =

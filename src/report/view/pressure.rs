@@ -2,9 +2,9 @@
 
 use base::plane::clip::inside;
 use check::{
+    elastic::{JointKind, Joints, law::opens},
     proof::state::StateAnswer,
     verdict::Rate,
-    yielding::{JointKind, Joints, law::opens},
 };
 use model::interface::Model;
 use nalgebra::Vector3;

@@ -58,7 +58,7 @@ impl View {
     }
 }
 
-impl super::Body {
+impl super::BlockView {
     /// Whether a ray from a point meets the body.
     fn stops(&self, from: &Vector3<f64>, way: &Vector3<f64>) -> bool {
         match &self.shape {

@@ -68,7 +68,7 @@ impl View {
 
     /// Every block where it is.
     fn frame(&self, time: f64) -> Frame {
-        let still = |b: &super::Body| Pose {
+        let still = |b: &super::BlockView| Pose {
             center: b.center,
             turn: UnitQuaternion::identity(),
             velocity: Vector3::zeros(),

@@ -1,6 +1,6 @@
 //! A train on its way as a film: one frame a position, each with the mechanism that starts there.
 
-use super::{Body, Course, View, ViewMotion, ViewPart};
+use super::{BlockView, Course, View, ViewMotion, ViewPart};
 use check::{
     proof::result::ResultFile,
     verdict::{claim::Claim, evidence::read_rates},
@@ -36,7 +36,7 @@ pub fn positions(model: &Model, file: &ResultFile) -> Vec<Frame> {
         matches!(d.certificate.claim, Some(Claim::LoadFactor { .. })).then_some(())?;
         let rates = read_rates(&model.assembly, &d.certificate.rates).ok()?;
         let motion = ViewMotion::new(model, ViewPart::Answer, "", rates, &view.bodies)?;
-        let pose = |(k, body): (usize, &Body)| {
+        let pose = |(k, body): (usize, &BlockView)| {
             let pose = motion.pose(k, SHOWN * view.size());
             Pose {
                 center: body.center + pose.shift,

@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 const FINE: usize = 300;
 
 /// A point.
-pub struct Point {
+pub struct MeshPoint {
     /// Where, m.
     pub at: Vector3<f64>,
     /// The block it moves with.
@@ -41,7 +41,7 @@ pub struct Cell {
 #[derive(Default)]
 pub struct Mesh {
     /// Points.
-    pub points: Vec<Point>,
+    pub points: Vec<MeshPoint>,
     /// Contact points that carry forces, contacts at points, places of loads, and members that act at
     /// a point.
     pub verts: Vec<Cell>,
@@ -75,7 +75,7 @@ impl Mesh {
         block: Option<usize>,
         contact: Option<(usize, usize)>,
     ) -> u32 {
-        self.points.push(Point { at, block, contact, load: None });
+        self.points.push(MeshPoint { at, block, contact, load: None });
         self.points.len() as u32 - 1
     }
 
@@ -101,7 +101,7 @@ impl Mesh {
                     s.pieces
                         .iter()
                         .for_each(|piece| face(piece.iter().map(|v| first + v).collect()));
-                    self.points.extend(s.corners.iter().map(|&at| Point {
+                    self.points.extend(s.corners.iter().map(|&at| MeshPoint {
                         at,
                         block: Some(i),
                         contact: None,
@@ -111,7 +111,7 @@ impl Mesh {
                 ViewShape::Sphere(radius) => {
                     faces.iter().for_each(|f| face(f.iter().map(|v| first + v).collect()));
                     let at = |c: &Vector3<f64>| body.center + c * *radius;
-                    self.points.extend(corners.iter().map(|c| Point {
+                    self.points.extend(corners.iter().map(|c| MeshPoint {
                         at: at(c),
                         block: Some(i),
                         contact: None,
@@ -155,7 +155,7 @@ impl Mesh {
     fn loads(&mut self, view: &View) {
         for (k, load) in view.loads.iter().enumerate() {
             let point = self.points.len() as u32;
-            self.points.push(Point { at: load.at, block: None, contact: None, load: Some(k) });
+            self.points.push(MeshPoint { at: load.at, block: None, contact: None, load: Some(k) });
             let part = if load.live { VtkPart::LiveLoad } else { VtkPart::Load };
             self.verts.push(Cell {
                 part,

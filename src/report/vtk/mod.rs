@@ -120,7 +120,7 @@ fn document(view: &View, mesh: &Mesh, frame: Option<&Frame>) -> String {
 }
 
 /// Where a point is.
-fn place(view: &View, p: &mesh::Point, frame: Option<&Frame>) -> Vector3<f64> {
+fn place(view: &View, p: &mesh::MeshPoint, frame: Option<&Frame>) -> Vector3<f64> {
     match (p.block, frame) {
         (Some(i), Some(frame)) => {
             frame.blocks[i].center + frame.blocks[i].turn * (p.at - view.bodies[i].center)
@@ -131,7 +131,7 @@ fn place(view: &View, p: &mesh::Point, frame: Option<&Frame>) -> Vector3<f64> {
 
 fn velocities(xml: &mut Xml, view: &View, mesh: &Mesh, frame: &Frame) {
     xml.open("PointData", "");
-    let velocity = |p: &mesh::Point| match p.block {
+    let velocity = |p: &mesh::MeshPoint| match p.block {
         Some(i) => {
             frame.blocks[i].velocity
                 + frame.blocks[i]
@@ -147,19 +147,19 @@ fn velocities(xml: &mut Xml, view: &View, mesh: &Mesh, frame: &Frame) {
 fn point_data(xml: &mut Xml, view: &View, mesh: &Mesh) {
     xml.open("PointData", "");
     for state in &view.states {
-        let force = |p: &mesh::Point| match p.contact {
+        let force = |p: &mesh::MeshPoint| match p.contact {
             Some((joint, corner)) => state.forces[joint][corner],
             None => Vector3::zeros(),
         };
         xml.vectors(&named("force", state.part), mesh.points.iter().map(force));
     }
     if !view.loads.is_empty() {
-        let load = |p: &mesh::Point| p.load.map_or(Vector3::zeros(), |k| view.loads[k].force);
+        let load = |p: &mesh::MeshPoint| p.load.map_or(Vector3::zeros(), |k| view.loads[k].force);
         xml.vectors("load", mesh.points.iter().map(load));
     }
     for motion in &view.motions {
         let by = if motion.is_displacement { 1.0 } else { sized(view, motion) / motion.reach };
-        let way = |p: &mesh::Point| match p.block {
+        let way = |p: &mesh::MeshPoint| match p.block {
             Some(i) => {
                 (motion.rates[i].velocity
                     + motion.rates[i].spin.cross(&(p.at - view.bodies[i].center)))

@@ -1,8 +1,8 @@
 //! The arch: voussoirs between joints along a mid-line, springers or buttresses under them.
 
 use super::{
-    check::Place,
-    midline::{Fields, Joint, Midline, Point, mirror},
+    check::TemplatePath,
+    midline::{Fields, JointLine, Midline, Xz, mirror},
     numbered, support,
 };
 use crate::{
@@ -19,15 +19,15 @@ const CHORDS_AT_SPRINGING: usize = 8;
 /// An arch in its plane.
 pub struct Section {
     /// Voussoirs from left to right.
-    pub voussoirs: Vec<Vec<Point>>,
+    pub voussoirs: Vec<Vec<Xz>>,
     /// The supports under the left and the right springing.
-    pub springers: [Vec<Point>; 2],
+    pub springers: [Vec<Xz>; 2],
     /// The right springing joint.
-    pub springing: Joint,
+    pub springing: JointLine,
 }
 
 pub fn blocks(arch: &Arch) -> Result<Vec<BlockSpec>, InputError> {
-    let place = Place::template("arch");
+    let place = TemplatePath::template("arch");
     let along = arch.thickness_along.unwrap_or(match arch.joints {
         JointDirection::Radial => ThicknessAlong::Normal,
         JointDirection::Vertical => ThicknessAlong::Vertical,
@@ -106,7 +106,7 @@ pub fn blocks(arch: &Arch) -> Result<Vec<BlockSpec>, InputError> {
 
 /// The voussoirs and springers of an arch with radial joints; also the section of a barrel vault.
 pub fn radial_section(
-    place: &Place,
+    place: &TemplatePath,
     fields: &Fields,
     voussoirs: usize,
 ) -> Result<Section, InputError> {
@@ -117,7 +117,7 @@ pub fn radial_section(
 /// The same cut into rings of equal thickness, from inside out; all together as thick as `fields`
 /// says at the crown and `springing` at the springings, the intrados the same.
 pub fn radial_rings(
-    place: &Place,
+    place: &TemplatePath,
     fields: &Fields,
     voussoirs: usize,
     rings: usize,
@@ -133,7 +133,7 @@ pub fn radial_rings(
 }
 
 /// What holds for every direction of the joints.
-fn check(place: &Place, fields: &Fields, voussoirs: usize) -> Result<Midline, InputError> {
+fn check(place: &TemplatePath, fields: &Fields, voussoirs: usize) -> Result<Midline, InputError> {
     let thickness = fields.thickness;
     let midline = fields.resolve(place)?;
     place.length("thickness", thickness)?;
@@ -176,7 +176,7 @@ fn check(place: &Place, fields: &Fields, voussoirs: usize) -> Result<Midline, In
 
 /// Joints normal to the mid-line.
 fn radial(
-    place: &Place,
+    place: &TemplatePath,
     midline: &Midline,
     thickness: f64,
     n: usize,
@@ -187,14 +187,14 @@ fn radial(
 /// The same between two distances from the mid-line, outwards, at u from 0 (crown) to 1
 /// (springing).
 fn ring(
-    place: &Place,
+    place: &TemplatePath,
     midline: &Midline,
     between: impl Fn(f64) -> [f64; 2],
     n: usize,
 ) -> Result<Section, InputError> {
     let ends = between(1.0);
     let thickness = ends[1] - ends[0];
-    let joints: Vec<Joint> = (0..=n).map(|j| midline.joint_between(j, n, &between)).collect();
+    let joints: Vec<JointLine> = (0..=n).map(|j| midline.joint_between(j, n, &between)).collect();
     unfolded(place, &joints, thickness)?;
     let springing = joints[n];
     let right = match *midline {
@@ -213,8 +213,8 @@ fn ring(
 }
 
 /// A ring between joints of one's own, from left to right, at least two.
-pub fn ring_between(place: &Place, joints: &[Joint]) -> Result<Section, InputError> {
-    let thickness = |[b, c]: Joint| (c[0] - b[0]).hypot(c[1] - b[1]);
+pub fn ring_between(place: &TemplatePath, joints: &[JointLine]) -> Result<Section, InputError> {
+    let thickness = |[b, c]: JointLine| (c[0] - b[0]).hypot(c[1] - b[1]);
     let n = joints.len() - 1;
     unfolded(place, joints, joints.iter().map(|j| thickness(*j)).fold(0.0, f64::max))?;
     let [left, right] = [[joints[1], joints[0]].map(|j| j.map(mirror)), [joints[n - 1], joints[n]]]
@@ -228,7 +228,7 @@ pub fn ring_between(place: &Place, joints: &[Joint]) -> Result<Section, InputErr
 
 /// Refuses joints between which the intrados would run backwards, for the thickness reaches past the
 /// centre of curvature.
-fn unfolded(place: &Place, joints: &[Joint], thickness: f64) -> Result<(), InputError> {
+fn unfolded(place: &TemplatePath, joints: &[JointLine], thickness: f64) -> Result<(), InputError> {
     for pair in joints.windows(2) {
         let [[a, d], [b, c]] = [pair[0], pair[1]];
         let chord = [b[0] + c[0] - a[0] - d[0], b[1] + c[1] - a[1] - d[1]];
@@ -244,17 +244,17 @@ fn unfolded(place: &Place, joints: &[Joint], thickness: f64) -> Result<(), Input
 }
 
 /// The support beyond the last of two joints, as long as the voussoir between them.
-fn beyond([[a, d], [b, c]]: [Joint; 2], thickness: f64) -> Vec<Point> {
+fn beyond([[a, d], [b, c]]: [JointLine; 2], thickness: f64) -> Vec<Xz> {
     let length = ((b[0] + c[0] - a[0] - d[0]) / 2.0).hypot((b[1] + c[1] - a[1] - d[1]) / 2.0);
     // The joint runs outwards; turned clockwise it points away from the arch.
     let out = [(c[0] - b[0]) / thickness, (c[1] - b[1]) / thickness];
-    let back = |p: Point| [p[0] + length * out[1], p[1] - length * out[0]];
+    let back = |p: Xz| [p[0] + length * out[1], p[1] - length * out[0]];
     vec![b, back(b), back(c), c]
 }
 
 /// Joints vertical, intrados and extrados the mid-line moved down and up by half the thickness.
 fn sheared(midline: &Midline, thickness: f64, n: usize) -> Section {
-    let joints: Vec<Joint> = (0..=n)
+    let joints: Vec<JointLine> = (0..=n)
         .map(|j| {
             let [x, z] = midline.point_over(j, n);
             [[x, z - thickness / 2.0], [x, z + thickness / 2.0]]
@@ -273,7 +273,7 @@ fn sheared(midline: &Midline, thickness: f64, n: usize) -> Section {
 
 /// A circular ring of constant normal thickness cut by vertical joints.
 fn ring_cut_vertically(
-    place: &Place,
+    place: &TemplatePath,
     midline: &Midline,
     thickness: f64,
     n: usize,
@@ -332,7 +332,7 @@ fn ring_cut_vertically(
 
 /// The right springer of a circular arch: a voussoir from the springing to `angle` degrees from the
 /// crown.
-fn continued(midline: Midline, angle: f64, between: [f64; 2], [b, c]: Joint) -> Vec<Point> {
+fn continued(midline: Midline, angle: f64, between: [f64; 2], [b, c]: JointLine) -> Vec<Xz> {
     let circle = match midline {
         Midline::Circular { radius, .. } => Midline::Circular { radius, half_deg: angle },
         other => other,
@@ -344,12 +344,12 @@ fn continued(midline: Midline, angle: f64, between: [f64; 2], [b, c]: Joint) -> 
 /// Buttresses under a horizontal springing, inner face flush with the intrados: left, right, and
 /// the ground under both.
 fn under(
-    place: &Place,
+    place: &TemplatePath,
     buttresses: &Buttresses,
-    springing: Joint,
+    springing: JointLine,
     thickness: f64,
-) -> Result<[Vec<Point>; 3], InputError> {
-    let inner_place = Place(place.0.key("buttresses"));
+) -> Result<[Vec<Xz>; 3], InputError> {
+    let inner_place = TemplatePath(place.0.key("buttresses"));
     inner_place.length("width", buttresses.width)?;
     inner_place.length("height", buttresses.height)?;
     let [[inner, top], [outer, outer_top]] = springing;
@@ -364,15 +364,15 @@ fn under(
     Ok([reflect(&right), right, vec![[-end, bottom], [end, bottom], [end, foot], [-end, foot]]])
 }
 
-fn quad([a, d]: Joint, [b, c]: Joint) -> Vec<Point> {
+fn quad([a, d]: JointLine, [b, c]: JointLine) -> Vec<Xz> {
     vec![a, b, c, d]
 }
 
-fn both(right: Vec<Point>) -> [Vec<Point>; 2] {
+fn both(right: Vec<Xz>) -> [Vec<Xz>; 2] {
     [reflect(&right), right]
 }
 
 /// The mirror image of a polygon, run through backwards so that it stays counter-clockwise.
-fn reflect(polygon: &[Point]) -> Vec<Point> {
+fn reflect(polygon: &[Xz]) -> Vec<Xz> {
     polygon.iter().rev().map(|p| mirror(*p)).collect()
 }

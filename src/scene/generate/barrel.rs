@@ -1,12 +1,12 @@
 //! The barrel vault: the section of an arch drawn out along y, every other strip moved by half a
 //! block.
 
-use super::{arch::radial_section, check::Place, digits, midline::Fields, support};
+use super::{arch::radial_section, check::TemplatePath, digits, midline::Fields, support};
 use crate::{BlockSpec, Shape, template::Barrel};
 use base::error::InputError;
 
 pub fn blocks(barrel: &Barrel) -> Result<Vec<BlockSpec>, InputError> {
-    let place = Place::template("barrel");
+    let place = TemplatePath::template("barrel");
     place.length("depth", barrel.depth)?;
     place.count("courses", barrel.courses, 1)?;
     place.total("voussoirs", &[barrel.voussoirs, barrel.courses.saturating_add(1)])?;

@@ -7,9 +7,9 @@ use base::{
 };
 
 /// The place of a template (or a part of one) in errors.
-pub struct Place(pub JsonPath);
+pub struct TemplatePath(pub JsonPath);
 
-impl Place {
+impl TemplatePath {
     /// The template called `name`.
     pub fn template(name: &str) -> Self {
         Self(JsonPath::root().key(name))

@@ -1,11 +1,11 @@
 //! The column: equal boxes on a support.
 
-use super::{check::Place, numbered, support};
+use super::{check::TemplatePath, numbered, support};
 use crate::{BlockSpec, Shape, template::Column};
 use base::error::InputError;
 
 pub fn blocks(column: &Column) -> Result<Vec<BlockSpec>, InputError> {
-    let place = Place::template("column");
+    let place = TemplatePath::template("column");
     place.size("size", column.size)?;
     place.count("blocks", column.blocks, 1)?;
     place.total("blocks", &[column.blocks])?;

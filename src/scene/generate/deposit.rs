@@ -4,7 +4,7 @@
 
 mod vessel;
 
-use super::{check::Place, grain::Grain, numbered, random::Random};
+use super::{check::TemplatePath, grain::Grain, numbered, random::Random};
 use crate::{
     BlockSpec, Friction, GrainKind, JointOverride, JointSpec, Material, Protocol, ProtocolKind,
     Scene,
@@ -60,7 +60,7 @@ pub fn filled(protocol: &Protocol, own: &[BlockSpec], seed: u64) -> Result<Depos
 
 /// Refuses values out of their range.
 fn check(p: &Protocol) -> Result<(), InputError> {
-    let place = Place::template("repose");
+    let place = TemplatePath::template("repose");
     place.count("grains", p.grains, 1)?;
     if p.grains > MOST {
         return Err(place.error(
@@ -184,7 +184,7 @@ fn loose(
     if p.kind == ProtocolKind::Funnel && p.drop < pitch {
         let text = format!("must be at least {}, got {}", short(pitch), p.drop);
         let hint = "the height above the highest grain, in d, from which the next ones do not begin inside it";
-        return Err(Place::template("repose").error("drop", text, hint));
+        return Err(TemplatePath::template("repose").error("drop", text, hint));
     }
     let count = |low: f64, high: f64| (((high - low) / pitch).floor() as usize).max(1);
     let [x0, x1, y0, y1] = vessel.cell;

@@ -8,7 +8,7 @@
 
 use super::{
     angle::{cos_deg, sin_deg},
-    check::Place,
+    check::TemplatePath,
     digits, support,
 };
 use crate::{
@@ -18,7 +18,7 @@ use crate::{
 use base::error::InputError;
 
 pub fn blocks(dome: &Dome) -> Result<Vec<BlockSpec>, InputError> {
-    let place = Place::template("dome");
+    let place = TemplatePath::template("dome");
     let (springing, step, top) = check(&place, dome)?;
     let (rings, segments) = (digits(dome.rings), digits(dome.segments));
     let mut blocks = Vec::new();
@@ -48,7 +48,7 @@ pub fn blocks(dome: &Dome) -> Result<Vec<BlockSpec>, InputError> {
 }
 
 /// Angles from the axis, degrees: of the springing, of one ring, of the uppermost bed joint.
-fn check(place: &Place, dome: &Dome) -> Result<(f64, f64, f64), InputError> {
+fn check(place: &TemplatePath, dome: &Dome) -> Result<(f64, f64, f64), InputError> {
     place.length("radius", dome.radius)?;
     place.length("thickness", dome.thickness)?;
     if dome.thickness >= 2.0 * dome.radius {
@@ -62,7 +62,7 @@ fn check(place: &Place, dome: &Dome) -> Result<(f64, f64, f64), InputError> {
     place.count("segments", dome.segments, 3)?;
     place.total("segments", &[dome.rings.saturating_add(1), dome.segments])?;
     for (i, opening) in dome.openings.iter().enumerate() {
-        let place = Place(place.0.key("openings").index(i));
+        let place = TemplatePath(place.0.key("openings").index(i));
         let [from, to] = opening.rings;
         if from > to || to >= dome.rings {
             return Err(place.error(
@@ -86,7 +86,7 @@ fn check(place: &Place, dome: &Dome) -> Result<(f64, f64, f64), InputError> {
         }
     }
     if let Some(lantern) = &dome.lantern {
-        let place = Place(place.0.key("lantern"));
+        let place = TemplatePath(place.0.key("lantern"));
         place.length("height", lantern.height)?;
         place.length("cap", lantern.cap)?;
         if dome.oculus_deg.is_none_or(|o| o >= 90.0) {

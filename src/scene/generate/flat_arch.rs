@@ -1,12 +1,12 @@
 //! The flat arch: voussoirs between two horizontal lines, joints vertical or through one point
 //! below.
 
-use super::{check::Place, numbered, support};
+use super::{check::TemplatePath, numbered, support};
 use crate::{BlockSpec, Shape, template::FlatArch};
 use base::error::InputError;
 
 pub fn blocks(arch: &FlatArch) -> Result<Vec<BlockSpec>, InputError> {
-    let place = Place::template("flat_arch");
+    let place = TemplatePath::template("flat_arch");
     place.length("span", arch.span)?;
     place.length("height", arch.height)?;
     place.length("depth", arch.depth)?;

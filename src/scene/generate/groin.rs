@@ -8,8 +8,8 @@
 
 use super::{
     arch::radial_section,
-    check::Place,
-    midline::{Fields, Point},
+    check::TemplatePath,
+    midline::{Fields, Xz},
     numbered, support,
 };
 use crate::{BlockSpec, Shape, template::Groin};
@@ -24,7 +24,7 @@ const WEBS: [(&str, [[f64; 2]; 2]); 4] = [
 ];
 
 pub fn blocks(groin: &Groin) -> Result<Vec<BlockSpec>, InputError> {
-    let place = Place::template("groin");
+    let place = TemplatePath::template("groin");
     place.length("thickness", groin.thickness)?;
     place.length("side", groin.side)?;
     place.total("voussoirs", &[4, groin.voussoirs])?;
@@ -82,8 +82,8 @@ pub fn blocks(groin: &Groin) -> Result<Vec<BlockSpec>, InputError> {
 }
 
 /// A strip with the section a, b (intrados), c, d (extrados) from the diagonals to y = `end`, turned.
-fn strip(polygon: &[Point], end: f64, turn: [[f64; 2]; 2]) -> Shape {
-    let corner = |p: &Point, y: f64| {
+fn strip(polygon: &[Xz], end: f64, turn: [[f64; 2]; 2]) -> Shape {
+    let corner = |p: &Xz, y: f64| {
         let [[a, b], [c, d]] = turn;
         [a * p[0] + b * y + 0.0, c * p[0] + d * y + 0.0, p[1]]
     };

@@ -1,7 +1,7 @@
 //! Piles of equal spheres: face-centred cubic, square and triangular. Neighbours touch: centres are
 //! two radii apart.
 
-use super::{check::Place, numbered, support};
+use super::{check::TemplatePath, numbered, support};
 use crate::{
     BlockSpec, Shape,
     template::{Lattice, Packing},
@@ -9,7 +9,7 @@ use crate::{
 use base::error::InputError;
 
 pub fn blocks(lattice: &Lattice) -> Result<Vec<BlockSpec>, InputError> {
-    let place = Place::template("lattice");
+    let place = TemplatePath::template("lattice");
     place.length("radius", lattice.radius)?;
     place.count("layers", lattice.layers, 1)?;
     let layers = if lattice.packing == Packing::Bed { 1 } else { lattice.layers };

@@ -1,11 +1,11 @@
 //! The wall of two leaves: two walls in running bond side by side, tied by courses of through stones.
 
-use super::{check::Place, digits, support, wall::cut};
+use super::{check::TemplatePath, digits, support, wall::cut};
 use crate::{BlockSpec, Shape, template::Leaves};
 use base::error::InputError;
 
 pub fn blocks(wall: &Leaves) -> Result<Vec<BlockSpec>, InputError> {
-    let place = Place::template("leaves");
+    let place = TemplatePath::template("leaves");
     place.size("size", wall.size)?;
     place.length("hollow", wall.hollow)?;
     place.count("courses", wall.courses, 1)?;

@@ -6,16 +6,16 @@
 
 use super::{
     angle::{cos_deg, sin_deg},
-    check::Place,
+    check::TemplatePath,
 };
 use crate::template::Profile;
 use base::error::InputError;
 
 /// A point (x, z), m.
-pub type Point = [f64; 2];
+pub type Xz = [f64; 2];
 
 /// A joint: its intrados and its extrados end.
-pub type Joint = [Point; 2];
+pub type JointLine = [Xz; 2];
 
 /// The fields that give a mid-line, as arch and barrel have them.
 #[derive(Clone, Copy)]
@@ -69,7 +69,7 @@ impl Fields {
     }
 
     /// Checks which fields are there and their ranges.
-    pub fn resolve(&self, place: &Place) -> Result<Midline, InputError> {
+    pub fn resolve(&self, place: &TemplatePath) -> Result<Midline, InputError> {
         let lengths = [
             ("radius", self.radius),
             ("span", self.span),
@@ -142,7 +142,7 @@ impl Fields {
     }
 
     /// The mid-line half the thickness outside a given intrados.
-    fn of_intrados(&self, place: &Place) -> Result<Midline, InputError> {
+    fn of_intrados(&self, place: &TemplatePath) -> Result<Midline, InputError> {
         let (Some(span), Some(rise)) = (self.intrados_span, self.intrados_rise) else {
             let field =
                 if self.intrados_span.is_none() { "intrados_span" } else { "intrados_rise" };
@@ -193,7 +193,7 @@ impl Fields {
         })
     }
 
-    fn circle(&self, place: &Place) -> Result<Midline, InputError> {
+    fn circle(&self, place: &TemplatePath) -> Result<Midline, InputError> {
         let radius = self.radius.unwrap_or_default();
         let embrace = self.embrace_deg.unwrap_or(180.0);
         if !(embrace > 0.0 && embrace < 360.0) {
@@ -206,7 +206,7 @@ impl Fields {
         Ok(Midline::Circular { radius, half_deg: embrace / 2.0 })
     }
 
-    fn two_circles(&self, place: &Place) -> Result<Midline, InputError> {
+    fn two_circles(&self, place: &TemplatePath) -> Result<Midline, InputError> {
         let radius = self.radius.unwrap_or_default();
         match self.eccentricity {
             Some(e) if e >= 0.0 && e < radius => Ok(Midline::Pointed { radius, eccentricity: e }),
@@ -224,7 +224,7 @@ impl Fields {
     }
 
     /// Whether a circular or pointed arch is given by its radius; otherwise it is by span and rise.
-    fn by_radius(&self, place: &Place) -> Result<bool, InputError> {
+    fn by_radius(&self, place: &TemplatePath) -> Result<bool, InputError> {
         match (self.radius, self.span.or(self.rise)) {
             (Some(_), Some(_)) => Err(place.error(
                 "radius",
@@ -240,7 +240,7 @@ impl Fields {
         }
     }
 
-    fn half_span_and_rise(&self, place: &Place) -> Result<(f64, f64), InputError> {
+    fn half_span_and_rise(&self, place: &TemplatePath) -> Result<(f64, f64), InputError> {
         match (self.span, self.rise) {
             (Some(span), Some(rise)) => Ok((span / 2.0, rise)),
             (span, _) => Err(place.error(
@@ -264,7 +264,12 @@ impl Fields {
         }
     }
 
-    fn refuse(&self, place: &Place, field: &str, value: Option<f64>) -> Result<(), InputError> {
+    fn refuse(
+        &self,
+        place: &TemplatePath,
+        field: &str,
+        value: Option<f64>,
+    ) -> Result<(), InputError> {
         if value.is_none() {
             return Ok(());
         }
@@ -282,7 +287,7 @@ impl Fields {
 
     fn refuse_with_span(
         &self,
-        place: &Place,
+        place: &TemplatePath,
         field: &str,
         value: Option<f64>,
     ) -> Result<(), InputError> {
@@ -300,17 +305,22 @@ impl Fields {
 impl Midline {
     /// The joint normal to the mid-line at u = (2j − n) / n, with half the thickness on either
     /// side.
-    pub fn radial_joint(&self, j: usize, n: usize, thickness: f64) -> Joint {
+    pub fn radial_joint(&self, j: usize, n: usize, thickness: f64) -> JointLine {
         self.joint_between(j, n, &|_| [-thickness / 2.0, thickness / 2.0])
     }
 
     /// The same between two distances from the mid-line, outwards, at |u|.
-    pub fn joint_between(&self, j: usize, n: usize, between: &impl Fn(f64) -> [f64; 2]) -> Joint {
+    pub fn joint_between(
+        &self,
+        j: usize,
+        n: usize,
+        between: &impl Fn(f64) -> [f64; 2],
+    ) -> JointLine {
         mirrored(j, n, |u| between(u).map(|out| self.offset(u, out)))
     }
 
     /// The point of the mid-line at (2j − n) / n of the half span.
-    pub fn point_over(&self, j: usize, n: usize) -> Point {
+    pub fn point_over(&self, j: usize, n: usize) -> Xz {
         let [point, _] = mirrored(j, n, |u| {
             let x = self.half_span() * u;
             [[x, self.height(x)]; 2]
@@ -350,7 +360,7 @@ impl Midline {
     }
 
     /// The point at distance `out` from the mid-line, outwards along its normal at u in [0, 1].
-    fn offset(&self, u: f64, out: f64) -> Point {
+    fn offset(&self, u: f64, out: f64) -> Xz {
         match *self {
             Midline::Circular { radius, half_deg } => {
                 let (r, angle) = (radius + out, half_deg * u);
@@ -395,7 +405,7 @@ const HALF_CROWN_DEG: f64 = 30.0;
 
 /// The radii for a span and a rise: side + (crown − side) sin 30° = half span and crown − (crown −
 /// side) cos 30° = rise.
-fn three_centred(place: &Place, half_span: f64, rise: f64) -> Result<Midline, InputError> {
+fn three_centred(place: &TemplatePath, half_span: f64, rise: f64) -> Result<Midline, InputError> {
     let (sin, cos) = (sin_deg(HALF_CROWN_DEG), cos_deg(HALF_CROWN_DEG));
     let least = half_span * (1.0 - cos) / sin;
     if !(rise > least && rise <= half_span) {
@@ -425,13 +435,13 @@ fn parabola_over(half_span: f64, rise: f64, half: f64) -> Midline {
 }
 
 /// `point` moved by `distance` in a direction of any length.
-fn along(point: Point, direction: Point, distance: f64) -> Point {
+fn along(point: Xz, direction: Xz, distance: f64) -> Xz {
     let length = direction[0].hypot(direction[1]);
     [point[0] + distance * direction[0] / length, point[1] + distance * direction[1] / length]
 }
 
 /// Evaluates on the right half (u ≥ 0) and mirrors to the left.
-pub fn mirrored(j: usize, n: usize, right: impl Fn(f64) -> Joint) -> Joint {
+pub fn mirrored(j: usize, n: usize, right: impl Fn(f64) -> JointLine) -> JointLine {
     if 2 * j >= n {
         return right((2 * j - n) as f64 / n as f64);
     }
@@ -439,7 +449,7 @@ pub fn mirrored(j: usize, n: usize, right: impl Fn(f64) -> Joint) -> Joint {
 }
 
 /// The mirror image of a point in x = 0.
-pub fn mirror([x, z]: Point) -> Point {
+pub fn mirror([x, z]: Xz) -> Xz {
     // Subtracted, so that the crown does not become -0.
     [0.0 - x, z]
 }

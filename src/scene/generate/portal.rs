@@ -1,6 +1,6 @@
 //! The portal: an arch on two piers of boxes, with buttresses against them the section of a nave.
 
-use super::{arch::radial_section, check::Place, midline::Fields, numbered, support};
+use super::{arch::radial_section, check::TemplatePath, midline::Fields, numbered, support};
 use crate::{
     BlockSpec, Shape,
     template::{Pier, Portal},
@@ -8,7 +8,7 @@ use crate::{
 use base::{error::InputError, tolerance::GRID_SNAP};
 
 pub fn blocks(portal: &Portal) -> Result<Vec<BlockSpec>, InputError> {
-    let place = Place::template("portal");
+    let place = TemplatePath::template("portal");
     place.length("depth", portal.depth)?;
     place.total("voussoirs", &[portal.voussoirs])?;
     let fields = Fields::of_intrados_alone(
@@ -26,9 +26,9 @@ pub fn blocks(portal: &Portal) -> Result<Vec<BlockSpec>, InputError> {
         ));
     }
     let pier = &portal.pier;
-    check(&Place(place.0.key("pier")), pier)?;
+    check(&TemplatePath(place.0.key("pier")), pier)?;
     if pier.width < portal.thickness * (1.0 - GRID_SNAP) {
-        return Err(Place(place.0.key("pier")).error(
+        return Err(TemplatePath(place.0.key("pier")).error(
             "width",
             format!(
                 "must be at least the thickness of the arch = {}, got {}",
@@ -38,7 +38,7 @@ pub fn blocks(portal: &Portal) -> Result<Vec<BlockSpec>, InputError> {
         ));
     }
     if let Some(buttress) = &portal.buttress {
-        let place = Place(place.0.key("buttress"));
+        let place = TemplatePath(place.0.key("buttress"));
         check(&place, buttress)?;
         if buttress.height > pier.height {
             return Err(place.error(
@@ -83,7 +83,7 @@ pub fn blocks(portal: &Portal) -> Result<Vec<BlockSpec>, InputError> {
     Ok(blocks)
 }
 
-fn check(place: &Place, pier: &Pier) -> Result<(), InputError> {
+fn check(place: &TemplatePath, pier: &Pier) -> Result<(), InputError> {
     place.length("width", pier.width)?;
     place.length("height", pier.height)?;
     place.count("courses", pier.courses, 1)?;

@@ -1,12 +1,12 @@
 //! The stack: equal boxes, each shifted against the one below by a constant, or so that all joints
 //! are equally near to tipping.
 
-use super::{check::Place, numbered, support};
+use super::{check::TemplatePath, numbered, support};
 use crate::{BlockSpec, Shape, template::Stack};
 use base::error::InputError;
 
 pub fn blocks(stack: &Stack) -> Result<Vec<BlockSpec>, InputError> {
-    let place = Place::template("stack");
+    let place = TemplatePath::template("stack");
     place.size("size", stack.size)?;
     place.count("blocks", stack.blocks, 1)?;
     place.total("blocks", &[stack.blocks])?;

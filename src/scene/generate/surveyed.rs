@@ -5,24 +5,24 @@
 //! it is the cubic with their tangents (Hermite).
 
 use super::{
-    check::Place,
-    midline::{Joint, Point},
+    check::TemplatePath,
+    midline::{JointLine, Xz},
 };
 use base::error::InputError;
 
 /// The curve through points from the left springing to the right one, about the middle between the
 /// springings and their height.
 pub struct Surveyed {
-    points: Vec<Point>,
+    points: Vec<Xz>,
     /// Unit tangents, towards the right springing.
-    tangents: Vec<Point>,
+    tangents: Vec<Xz>,
     /// Along the chords from the left springing to each point, m.
     along: Vec<f64>,
 }
 
 impl Surveyed {
     /// Checks the points.
-    pub fn new(place: &Place, points: &[Point]) -> Result<Self, InputError> {
+    pub fn new(place: &TemplatePath, points: &[Xz]) -> Result<Self, InputError> {
         let refuse = |k: usize, text: String, hint: &str| {
             Err(InputError::at(place.0.key("intrados").index(k), text).hint(hint))
         };
@@ -53,7 +53,7 @@ impl Surveyed {
             );
         }
         let middle = 0.5 * (first[0] + last[0]);
-        let points: Vec<Point> = points.iter().map(|p| [p[0] - middle, p[1] - first[1]]).collect();
+        let points: Vec<Xz> = points.iter().map(|p| [p[0] - middle, p[1] - first[1]]).collect();
         if let Some(k) = (1..points.len() - 1).find(|&k| points[k][1] <= 0.0) {
             return refuse(
                 k,
@@ -74,7 +74,7 @@ impl Surveyed {
     }
 
     /// The highest of the points: x from the middle between the springings, height over them, m.
-    pub fn crown(&self) -> Point {
+    pub fn crown(&self) -> Xz {
         self.points[self.highest()]
     }
 
@@ -86,7 +86,7 @@ impl Surveyed {
     /// The joints of `n` voussoirs between two distances from the intrados, outwards, at u from 0
     /// (crown) to 1 (springings): at the points where there is one for each joint, else evenly along
     /// the curve.
-    pub fn joints(&self, n: usize, between: impl Fn(f64) -> [f64; 2]) -> Vec<Joint> {
+    pub fn joints(&self, n: usize, between: impl Fn(f64) -> [f64; 2]) -> Vec<JointLine> {
         let whole = self.along[self.along.len() - 1];
         let crown = self.along[self.highest()];
         let at = |j: usize| match self.points.len() == n + 1 {
@@ -103,7 +103,7 @@ impl Surveyed {
     }
 
     /// The point and the unit tangent so far along the chords.
-    fn at(&self, s: f64) -> (Point, Point) {
+    fn at(&self, s: f64) -> (Xz, Xz) {
         let last = self.points.len() - 1;
         let k = self.along.partition_point(|a| *a <= s).clamp(1, last) - 1;
         let length = self.along[k + 1] - self.along[k];
@@ -112,7 +112,7 @@ impl Surveyed {
             let k = if t <= 0.0 { k } else { k + 1 };
             return (self.points[k], self.tangents[k]);
         }
-        let sum = |by: [f64; 4]| -> Point {
+        let sum = |by: [f64; 4]| -> Xz {
             let of = [self.points[k], self.points[k + 1], self.tangents[k], self.tangents[k + 1]];
             [0, 1].map(|c| by.iter().zip(of).map(|(by, p)| by * p[c]).sum())
         };
@@ -131,17 +131,16 @@ impl Surveyed {
 
 /// Unit tangents of the circles through every three neighbours; at the ends that of the same circle
 /// as beside them.
-fn tangents(points: &[Point]) -> Vec<Point> {
-    let inner = |p: &[Point]| {
+fn tangents(points: &[Xz]) -> Vec<Xz> {
+    let inner = |p: &[Xz]| {
         // Of the circle's image in a circle about the point, which is a line.
         let [a, b] = [minus(p[1], p[0]), minus(p[2], p[1])];
         let sum = plus(scaled(a, 1.0 / dot(a, a)), scaled(b, 1.0 / dot(b, b)));
         scaled(sum, 1.0 / norm(sum).max(f64::MIN_POSITIVE))
     };
     // A chord leans as much from the tangent at one end as at the other.
-    let other =
-        |t: Point, chord: Point| minus(scaled(chord, 2.0 * dot(t, chord) / dot(chord, chord)), t);
-    let mut list: Vec<Point> = points.windows(3).map(inner).collect();
+    let other = |t: Xz, chord: Xz| minus(scaled(chord, 2.0 * dot(t, chord) / dot(chord, chord)), t);
+    let mut list: Vec<Xz> = points.windows(3).map(inner).collect();
     let last = points.len() - 1;
     let first = other(list[0], minus(points[1], points[0]));
     list.push(other(list[last - 2], minus(points[last], points[last - 1])));
@@ -149,22 +148,22 @@ fn tangents(points: &[Point]) -> Vec<Point> {
     list
 }
 
-fn plus(a: Point, b: Point) -> Point {
+fn plus(a: Xz, b: Xz) -> Xz {
     [a[0] + b[0], a[1] + b[1]]
 }
 
-fn minus(a: Point, b: Point) -> Point {
+fn minus(a: Xz, b: Xz) -> Xz {
     [a[0] - b[0], a[1] - b[1]]
 }
 
-fn scaled(a: Point, by: f64) -> Point {
+fn scaled(a: Xz, by: f64) -> Xz {
     a.map(|c| c * by)
 }
 
-fn dot(a: Point, b: Point) -> f64 {
+fn dot(a: Xz, b: Xz) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }
 
-fn norm(a: Point) -> f64 {
+fn norm(a: Xz) -> f64 {
     a[0].hypot(a[1])
 }

@@ -1,11 +1,11 @@
 //! The tower: four walls a course, each passing one corner, the other way round in the next course.
 
-use super::{check::Place, digits, support};
+use super::{check::TemplatePath, digits, support};
 use crate::{BlockSpec, Shape, template::Tower};
 use base::error::InputError;
 
 pub fn blocks(tower: &Tower) -> Result<Vec<BlockSpec>, InputError> {
-    let place = Place::template("tower");
+    let place = TemplatePath::template("tower");
     let [a, b] = tower.size;
     place.size("size", [a, b, 1.0])?;
     place.length("thickness", tower.thickness)?;

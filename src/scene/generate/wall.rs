@@ -3,7 +3,7 @@
 //! Positions along the wall are counted in block lengths, so that the joints of the bond are exact
 //! halves.
 
-use super::{check::Place, digits, support};
+use super::{check::TemplatePath, digits, support};
 use crate::{
     BlockSpec, Shape,
     template::{Opening, Wall, WallBase, WallEnd},
@@ -21,7 +21,7 @@ struct Hole {
 }
 
 pub fn blocks(wall: &Wall) -> Result<Vec<BlockSpec>, InputError> {
-    let place = Place::template("wall");
+    let place = TemplatePath::template("wall");
     let holes = check(&place, wall)?;
     let [length, depth, height] = wall.size;
     let cuboid = |x: &Range<f64>, z: f64| {
@@ -63,7 +63,7 @@ pub fn blocks(wall: &Wall) -> Result<Vec<BlockSpec>, InputError> {
     Ok(blocks)
 }
 
-fn check(place: &Place, wall: &Wall) -> Result<Vec<Hole>, InputError> {
+fn check(place: &TemplatePath, wall: &Wall) -> Result<Vec<Hole>, InputError> {
     place.size("size", wall.size)?;
     place.count("courses", wall.courses, 1)?;
     place.count("blocks", wall.blocks, 1)?;
@@ -95,7 +95,7 @@ fn check(place: &Place, wall: &Wall) -> Result<Vec<Hole>, InputError> {
 
 /// An opening in block lengths and courses.
 fn hole(path: JsonPath, wall: &Wall, opening: &Opening) -> Result<Hole, InputError> {
-    let place = Place(path);
+    let place = TemplatePath(path);
     place.finite("x", opening.x)?;
     place.length("width", opening.width)?;
     place.length("height", opening.height)?;

@@ -9,7 +9,7 @@
 //! near, and following it there ([`Exact::on`]) costs milliseconds where the fixed point on 164
 //! blocks of a bridge takes tenths of a second.
 
-use super::{newton::Solved, place::Place};
+use super::{drag::Dragged, newton::Solved};
 use crate::{
     Lu, Pattern,
     deadline::Deadline,
@@ -56,7 +56,7 @@ pub struct Exact {
     /// How many matrices it has factored.
     pub factors: usize,
     /// Where the state came to as it came about.
-    pub(super) place: Place,
+    pub(super) place: Dragged,
 }
 
 impl Exact {
@@ -73,7 +73,7 @@ impl Exact {
             lu,
             carried: contacts.carried(),
             factors: 0,
-            place: Place::default(),
+            place: Dragged::default(),
         })
     }
 

@@ -1,6 +1,6 @@
 //! The fixed point of one program: friction held, solved, held anew.
 
-use super::{anderson::Anderson, law::Law, newton::Newton, point::FixedPoint};
+use super::{anderson::Anderson, law::CoulombLaw, newton::Newton, point::FixedPoint};
 use crate::{
     Session, Settings, Solution,
     program::{
@@ -26,7 +26,7 @@ pub struct Solvers<'a> {
     /// from.
     pub newton: Option<(&'a mut Newton, &'a [f64])>,
     /// Coulomb's law itself, for load factors.
-    pub law: Option<&'a mut Law>,
+    pub law: Option<&'a mut CoulombLaw>,
     /// Settings of the engine, which solves what Newton's method does not.
     pub settings: &'a Settings,
 }

@@ -14,7 +14,7 @@
 //! of the Armadillo Vault pushed by a quarter of its weight), and its solutions are hard to
 //! find where there are any. Here nothing is given away, and steps lead on.
 
-use super::{Exact, Solved, exact::allowed, place::Place};
+use super::{Exact, Solved, drag::Dragged, exact::allowed};
 use crate::{
     deadline::Deadline,
     program::{
@@ -60,7 +60,7 @@ impl Exact {
         if at.time == 0.0 {
             let still = vec![0.0; contacts.statics.matrix.rows];
             let memory = vec![0.0; contacts.compliance.len()];
-            at = Place { rates: still.clone(), speeds: still, memory, step: FIRST, ..at };
+            at = Dragged { rates: still.clone(), speeds: still, memory, step: FIRST, ..at };
         }
         let goal = 1.0 / epsilon;
         let mut look = 1.0 / looked;
@@ -101,7 +101,7 @@ impl Exact {
     fn pass(
         &mut self,
         contacts: &Contacts,
-        at: &Place,
+        at: &Dragged,
         time: f64,
         exactly: bool,
     ) -> Option<(Solved, f64, usize)> {

@@ -40,7 +40,7 @@ const LEAST_GROWTH: f64 = 1.01;
 const PUSHES: usize = 200;
 
 /// Coulomb's law for one set of contacts, and where it was last obeyed.
-pub struct Law {
+pub struct CoulombLaw {
     response: Response,
     lu: Lu,
     /// The live load as program D has it.
@@ -56,7 +56,7 @@ struct PathPoint {
     way: f64,
 }
 
-impl Law {
+impl CoulombLaw {
     /// `None` where the forces do not follow from the rates, or the factors do not fit into memory;
     /// `scale` multiplies the live load.
     pub fn new(contacts: &Contacts, scale: f64) -> Option<Self> {

@@ -3,7 +3,7 @@
 //! tenth of a factorisation.
 
 use super::{
-    newton::{Newton, Point, ROUGH},
+    newton::{Iterate, Newton, ROUGH},
     step::{add, slack, steps},
 };
 
@@ -29,7 +29,7 @@ pub(super) fn further(
     newton: &mut Newton,
     (s, z): (&[f64], &[f64]),
     (target, share): (f64, f64),
-    (d, ds): (&mut Point, &mut Vec<f64>),
+    (d, ds): (&mut Iterate, &mut Vec<f64>),
     (ap, ad): (&mut f64, &mut f64),
 ) {
     let (st, cones) = (newton.structure, newton.cones);
@@ -49,8 +49,8 @@ pub(super) fn further(
         cones.divide(&mut u);
         cones.times(&mut u);
         u.iter_mut().for_each(|u| *u = -*u);
-        let more = newton.solve(&Point { z: u, ..Point::zero(st) }, ROUGH, 0.0);
-        let zero = Point::zero(st);
+        let more = newton.solve(&Iterate { z: u, ..Iterate::zero(st) }, ROUGH, 0.0);
+        let zero = Iterate::zero(st);
         let more_s = slack(st, &more, &zero);
         // As much of it as brings us farthest.
         let mix = |to: &mut [f64], a: &[f64], weight: f64, b: &[f64]| {
@@ -70,7 +70,7 @@ pub(super) fn further(
         if score < *ap * *ad * (1.0 + WORTH) {
             break;
         }
-        let Point { x, t, y, z } = d;
+        let Iterate { x, t, y, z } = d;
         for (to, by) in [(x, &more.x), (t, &more.t), (y, &more.y), (z, &more.z), (ds, &more_s)] {
             add(to, weight, by);
         }

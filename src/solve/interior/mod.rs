@@ -20,7 +20,7 @@ mod structure;
 
 use self::{
     cones::Cones,
-    newton::Point,
+    newton::Iterate,
     path::{Data, Inside, greatest},
     reduced::Reduced,
     structure::Structure,
@@ -88,7 +88,7 @@ impl Session {
                 cones.inward(&mut v, room);
                 v
             };
-            let point = Point {
+            let point = Iterate {
                 x: pick(&passed.x, &st.variables),
                 t: pick(&passed.x, &st.border),
                 y: pick(&passed.z, &st.equalities),
@@ -162,7 +162,7 @@ impl Session {
     }
 
     /// Variables and multipliers of a point, in the order of the program.
-    fn spread(&self, p: &Point) -> (Vec<f64>, Vec<f64>) {
+    fn spread(&self, p: &Iterate) -> (Vec<f64>, Vec<f64>) {
         let st = &self.structure;
         let (mut x, mut z) = (vec![0.0; self.objective.len()], vec![0.0; self.rhs.len()]);
         put(&mut x, &st.variables, &p.x);

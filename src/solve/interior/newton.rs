@@ -9,14 +9,14 @@ use super::{cones::Cones, reduced::Reduced, structure::Structure};
 
 /// A point, a direction or a residual: of variables, border, equalities and cone rows.
 #[derive(Clone, Debug)]
-pub(super) struct Point {
+pub(super) struct Iterate {
     pub x: Vec<f64>,
     pub t: Vec<f64>,
     pub y: Vec<f64>,
     pub z: Vec<f64>,
 }
 
-impl Point {
+impl Iterate {
     pub fn zero(s: &Structure) -> Self {
         Self {
             x: vec![0.0; s.variables.len()],
@@ -139,12 +139,12 @@ impl<'a> Newton<'a> {
 
     /// Solves for one right-hand side, to `exact` × what its equations lack at first; where
     /// `enough` is given, all equations hold to that if rounding allows.
-    pub fn solve(&mut self, a: &Point, exact: f64, enough: f64) -> Point {
+    pub fn solve(&mut self, a: &Iterate, exact: f64, enough: f64) -> Iterate {
         let mut d = self.once(a, exact, enough);
         if enough == 0.0 {
             return d;
         }
-        let lack = |r: &Point| greatest(&r.x).max(greatest(&r.t));
+        let lack = |r: &Iterate| greatest(&r.x).max(greatest(&r.t));
         let mut rest = self.lacking(a, &d);
         for _ in 0..MOST_CORRECTIONS {
             let before = lack(&rest);
@@ -171,7 +171,7 @@ impl<'a> Newton<'a> {
     }
 
     /// What a direction lacks of each equation.
-    fn lacking(&self, a: &Point, d: &Point) -> Point {
+    fn lacking(&self, a: &Iterate, d: &Iterate) -> Iterate {
         let s = self.structure;
         let mut r = a.clone();
         for ((r, x), q) in r.x.iter_mut().zip(&d.x).zip(&s.quadratic) {
@@ -198,7 +198,7 @@ impl<'a> Newton<'a> {
 
     /// By the reduced system, corrected until equalities and border hold: rounding of `W⁻²` may be
     /// left in the others.
-    fn once(&mut self, a: &Point, exact: f64, enough: f64) -> Point {
+    fn once(&mut self, a: &Iterate, exact: f64, enough: f64) -> Iterate {
         let s = self.structure;
         // Right-hand sides without the cone rows.
         let stiff = self.stiff(&a.z);
@@ -206,7 +206,7 @@ impl<'a> Newton<'a> {
         s.g.add_transposed(1.0, &stiff, &mut b);
         let mut bt = a.t.clone();
         s.g_border.add_transposed(1.0, &stiff, &mut bt);
-        let mut d = Point::zero(s);
+        let mut d = Iterate::zero(s);
         d.x.copy_from_slice(&b);
         self.reduced.flex(s, &mut d.x);
         let (mut rest, mut rest_t) = self.rest(a, &bt, &d);
@@ -246,7 +246,7 @@ impl<'a> Newton<'a> {
     /// `dz = P dx + Eᵀ dy − a_x` instead, where a contact is stiffer than [`STIFF`] and each of its
     /// variables has its own cone row, `Gᵀ dz = −dz`: there `W⁻²` multiplies the rounding of `G dx`,
     /// and the rates of the blocks would no longer fit those of the contacts.
-    fn rates_of_stiff(&self, a: &Point, d: &mut Point) {
+    fn rates_of_stiff(&self, a: &Iterate, d: &mut Iterate) {
         let s = self.structure;
         let mut own: Vec<f64> =
             d.x.iter().zip(&a.x).map(|(x, a)| self.reduced.proximal * x - a).collect();
@@ -261,7 +261,7 @@ impl<'a> Newton<'a> {
     }
 
     /// What equalities and border rows still lack.
-    fn rest(&self, a: &Point, bt: &[f64], d: &Point) -> (Vec<f64>, Vec<f64>) {
+    fn rest(&self, a: &Iterate, bt: &[f64], d: &Iterate) -> (Vec<f64>, Vec<f64>) {
         let s = self.structure;
         let mut r = a.y.clone();
         s.e.add(-1.0, &d.x, &mut r);
@@ -278,7 +278,7 @@ impl<'a> Newton<'a> {
     }
 
     /// Adds the step that makes up for `r` and `rt`.
-    fn correct(&mut self, r: &[f64], rt: &[f64], d: &mut Point) {
+    fn correct(&mut self, r: &[f64], rt: &[f64], d: &mut Iterate) {
         let s = self.structure;
         // p = −r, q = rt.
         let mut dy: Vec<f64> = r.iter().map(|v| -v).collect();

@@ -3,7 +3,7 @@
 use super::{
     cones::Cones,
     correctors::further,
-    newton::{EXACT, Newton, Point, ROUGH},
+    newton::{EXACT, Iterate, Newton, ROUGH},
     reduced::Reduced,
     step::{add, kept_inside, share_of_the_way, slack, steps},
     structure::Structure,
@@ -70,12 +70,12 @@ const RATES_INSIDE: f64 = 2.5;
 const GROWN: f64 = 1e3;
 
 /// A point inside the cones, and its slack there.
-pub(super) type Inside = (Point, Vec<f64>);
+pub(super) type Inside = (Iterate, Vec<f64>);
 
 /// Where a path led.
 pub(super) struct Followed {
     /// The best point.
-    pub point: Option<Point>,
+    pub point: Option<Iterate>,
     pub status: Status,
     /// The first point after the start with no more than [`EARLY`] of its error left, and the first of
     /// all with no more than [`LATE`].
@@ -118,8 +118,8 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// `P x + c + Eᵀ y + Gᵀ z`, `E x − b`, `G x + s − h`.
-fn residual(st: &Structure, data: &Data, p: &Point, s: &[f64]) -> Point {
-    let mut r = Point {
+fn residual(st: &Structure, data: &Data, p: &Iterate, s: &[f64]) -> Iterate {
+    let mut r = Iterate {
         x: data.c.clone(),
         t: data.c_border.clone(),
         y: data.b.iter().map(|v| -v).collect(),
@@ -139,9 +139,9 @@ fn residual(st: &Structure, data: &Data, p: &Point, s: &[f64]) -> Point {
     r
 }
 
-fn minus(p: &Point) -> Point {
+fn minus(p: &Iterate) -> Iterate {
     let minus = |v: &[f64]| v.iter().map(|v| -v).collect();
-    Point { x: minus(&p.x), t: minus(&p.t), y: minus(&p.y), z: minus(&p.z) }
+    Iterate { x: minus(&p.x), t: minus(&p.t), y: minus(&p.y), z: minus(&p.z) }
 }
 
 /// The point that balances at least cost and the one that is admissible at least cost, brought
@@ -151,14 +151,14 @@ fn begin(
     reduced: &mut Reduced,
     cones: &mut Cones,
     data: &Data,
-) -> Option<(Point, Vec<f64>)> {
+) -> Option<(Iterate, Vec<f64>)> {
     cones.reset();
     reduced.proximal = 0.0;
-    let zero = Point::zero(st);
+    let zero = Iterate::zero(st);
     let mut newton = Newton::new(st, reduced, cones)?;
     let primal =
-        newton.solve(&Point { y: data.b.clone(), z: data.h.clone(), ..zero.clone() }, EXACT, 0.0);
-    let cost = Point {
+        newton.solve(&Iterate { y: data.b.clone(), z: data.h.clone(), ..zero.clone() }, EXACT, 0.0);
+    let cost = Iterate {
         x: data.c.iter().map(|v| -v).collect(),
         t: data.c_border.iter().map(|v| -v).collect(),
         ..zero
@@ -170,7 +170,7 @@ fn begin(
         v
     };
     let s = inside(primal.z.iter().map(|v| -v).collect(), FORCES_INSIDE);
-    Some((Point { x: primal.x, t: primal.t, y: dual.y, z: inside(dual.z, RATES_INSIDE) }, s))
+    Some((Iterate { x: primal.x, t: primal.t, y: dual.y, z: inside(dual.z, RATES_INSIDE) }, s))
 }
 
 /// Solves the program from a point inside the cones, or from its own start. `start` is when this solve
@@ -187,13 +187,13 @@ pub(super) fn follow(
 ) -> Followed {
     let mut cones = Cones::new(&st.cones);
     let degree = cones.degree() as f64;
-    let mut best: Option<(f64, Point)> = None;
+    let mut best: Option<(f64, Iterate)> = None;
     let (mut early, mut late, mut trace) = (None, None, Vec::new());
     let Some((mut p, mut s)) = from.or_else(|| begin(st, reduced, &mut cones, data)) else {
         return Followed { point: None, status: Status::Stalled, early, late, trace };
     };
     let mut since = 0;
-    let almost = |best: &Option<(f64, Point)>| {
+    let almost = |best: &Option<(f64, Iterate)>| {
         best.as_ref().is_some_and(|b| b.0 <= ALMOST * settings.tolerance)
     };
     let mut status = 'path: {

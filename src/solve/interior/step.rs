@@ -1,6 +1,6 @@
 //! One step of both sides: what moves, and how far.
 
-use super::{cones::Cones, newton::Point, structure::Structure};
+use super::{cones::Cones, newton::Iterate, structure::Structure};
 
 /// What a step leaves of the way to the boundary, at most and at least. Less at most: the next steps
 /// are short. Less at least: products at the level of rounding. More: more steps; with 5e-3 for both
@@ -20,7 +20,7 @@ pub(super) fn add(to: &mut [f64], by: f64, d: &[f64]) {
 }
 
 /// `ds = −r_z − G dx`.
-pub(super) fn slack(st: &Structure, d: &Point, r: &Point) -> Vec<f64> {
+pub(super) fn slack(st: &Structure, d: &Iterate, r: &Iterate) -> Vec<f64> {
     let mut ds: Vec<f64> = r.z.iter().map(|v| -v).collect();
     st.g.add(-1.0, &d.x, &mut ds);
     st.g_border.add(-1.0, &d.t, &mut ds);

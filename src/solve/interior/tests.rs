@@ -128,7 +128,7 @@ fn rates_fit_those_of_the_blocks_however_stiff_a_contact_is() {
     assert!(cones.scale(&s, &z));
     let mut newton = newton::Newton::new(&st, &mut reduced, &cones).unwrap();
     let wave = |n: usize, by: f64| (0..n).map(|k| (by * k as f64).sin()).collect::<Vec<_>>();
-    let a = Point {
+    let a = Iterate {
         x: wave(st.variables.len(), 0.7),
         t: wave(st.border.len(), 1.0),
         y: wave(st.equalities.len(), 1.3),

@@ -18,7 +18,7 @@ const MOST: usize = 6;
 
 /// A contact point and the blocks it acts on.
 #[derive(Clone, Debug, Default)]
-struct Joint {
+struct ContactColumns {
     /// Rows of the free blocks it touches, in row order; none for a support.
     blocks: [Range<usize>; 2],
     /// Where each block's part of `A` starts.
@@ -53,7 +53,7 @@ pub struct Answer<const N: usize> {
 
 impl<'a> FrictionLimits<'a> {
     /// The same for the discs of one point.
-    fn of(self, joint: &Joint, point: &SlidingPoint) -> Self {
+    fn of(self, joint: &ContactColumns, point: &SlidingPoint) -> Self {
         match self {
             Self::Held(quantity, held) => {
                 Self::Held(quantity, &held[joint.disc..joint.disc + point.discs.len()])
@@ -67,7 +67,7 @@ impl<'a> FrictionLimits<'a> {
 /// Program C in the rates.
 #[derive(Clone, Debug)]
 pub struct Response {
-    joints: Vec<Joint>,
+    joints: Vec<ContactColumns>,
     /// The parts of `A`, joint by joint and block by block, a column of the point after the other.
     operator: Vec<[f64; MOST]>,
     /// Where each column of the lower triangle of `∂g/∂q` starts, and where the last ends.
@@ -127,7 +127,7 @@ impl Response {
         }
         let (mut joints, mut size, mut disc) = (Vec::with_capacity(contacts.points.len()), 0, 0);
         for (p, blocks) in contacts.points.iter().zip(&touched) {
-            let mut joint = Joint { disc, ..Joint::default() };
+            let mut joint = ContactColumns { disc, ..ContactColumns::default() };
             for (side, block) in blocks.iter().enumerate() {
                 joint.first[side] = size;
                 if let Some(block) = block {
@@ -255,7 +255,7 @@ impl Response {
         let pairs = self.joints.chunk_by(|a, b| a.blocks == b.blocks);
         let mut points = contacts.points.iter();
         for joints in pairs {
-            let Some(Joint { blocks, after, .. }) = joints.first() else { continue };
+            let Some(ContactColumns { blocks, after, .. }) = joints.first() else { continue };
             let rates: [[f64; R]; 2] = std::array::from_fn(|side| first(&q[blocks[side].clone()]));
             let mut given = [[0.0; R]; 2];
             let mut squares = [[[[0.0; R]; R]; 3]; N];

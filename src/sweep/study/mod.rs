@@ -6,9 +6,10 @@
 //! wrong, undecided or loosely bracketed; [`soak`] asks thousands of random ones and looks for
 //! contradictions, and [`cross`] asks each of as many in several ways that must give one answer;
 //! [`forge`] changes their results into false ones, all of which must be refused. [`rocking`] has
-//! blocks on ground that moves; [`yielding`] joints that yield, beside the penalty method.
+//! blocks on ground that moves; [`elastic`] joints that yield, beside the penalty method.
 
 pub mod cross;
+pub mod elastic;
 pub mod extreme;
 pub mod forge;
 mod known;
@@ -17,13 +18,12 @@ mod omissions;
 pub(crate) mod random;
 pub mod rocking;
 pub mod soak;
-pub mod yielding;
 
+pub use elastic::{ElasticCase, ElasticMethod, ElasticPoint, ElasticQuantity};
 pub use known::Known;
 pub use method::StudyMethod;
 pub use omissions::{Omission, omissions};
 pub use rocking::{RockingCase, RockingMethod, RockingPoint, RockingQuantity};
-pub use yielding::{YieldingCase, YieldingMethod, YieldingPoint, YieldingQuantity};
 
 use base::error::InputError;
 use serde::{Deserialize, Serialize};

@@ -1,7 +1,7 @@
 //! A linkage whose parameter is the angle by which one of its blocks has turned: unlike the way of a
 //! point it goes on growing until the block lies on its side.
 
-use super::{CLOSED, FREE, Linkage, Place, STEPS, free};
+use super::{CLOSED, Configuration, FREE, Linkage, STEPS, free};
 use check::verdict::Rate;
 use nalgebra::{DMatrix, DVector, Vector3};
 
@@ -19,7 +19,7 @@ pub struct Turned {
 impl Linkage<'_> {
     /// The place near by at which a block has turned so far (Newton, least change); none where it
     /// does not come to rest.
-    pub fn turn(&self, near: &Place, to: &Turned) -> Option<Place> {
+    pub fn turn(&self, near: &Configuration, to: &Turned) -> Option<Configuration> {
         let column = self.bodies[self.body_of[to.block]].column?;
         let mut place = near.clone();
         let mut best = f64::INFINITY;
@@ -53,7 +53,7 @@ impl Linkage<'_> {
     }
 
     /// The rates of all blocks in a motion of the unknowns.
-    pub fn rates(&self, place: &Place, by: &DVector<f64>) -> Vec<Rate> {
+    pub fn rates(&self, place: &Configuration, by: &DVector<f64>) -> Vec<Rate> {
         let blocks = &self.start.assembly.blocks;
         (0..blocks.len())
             .map(|i| {

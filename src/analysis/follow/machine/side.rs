@@ -4,7 +4,7 @@ use super::{Beside, Exactness, refuse, table};
 use crate::{
     LoadFactor, Proved,
     follow::{
-        linkage::{Linkage, Place, Turned},
+        linkage::{Configuration, Linkage, Turned},
         program,
     },
 };
@@ -137,7 +137,7 @@ impl<'a> Side<'a> {
         let drive = drive();
         let linkage = Linkage::new(&self.carried, &self.closed, &[], &drive);
         let start = linkage.place(&vec![Pose::start(); self.rates.len()]);
-        let at = |near: &Place, angle: f64| -> Option<(Place, [f64; 6])> {
+        let at = |near: &Configuration, angle: f64| -> Option<(Configuration, [f64; 6])> {
             let place = linkage.turn(near, &Turned { block: self.lead, axis: self.axis, angle })?;
             (place.free.ncols() == 1).then_some(())?;
             let mut rates = linkage.rates(&place, &place.free.column(0).into_owned());

@@ -11,12 +11,12 @@ use super::{
     result::Direction,
 };
 use crate::{
-    terms::Bound,
-    verdict::{Rate, Verdict, exact::Grade},
-    yielding::{
+    elastic::{
         EventKind, Grip, JointKind, JointState, Joints, PathEnd, PathFactor, Quadrature, Residuals,
         System, Touch, Track, Where, events, frequencies,
     },
+    terms::Bound,
+    verdict::{Rate, Verdict, exact::Grade},
 };
 use model::interface::Model;
 use nalgebra::Vector3;

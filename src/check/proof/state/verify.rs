@@ -4,6 +4,7 @@
 use super::{Given, StateAnswer, StateResult, StepResult};
 use crate::proof::recompute::Recompute;
 use crate::{
+    elastic::{Joints, PathEnd, Track},
     proof::{
         answer::Answer,
         certificate::Certificate,
@@ -18,7 +19,6 @@ use crate::{
         exact::Grade,
         member::amounts,
     },
-    yielding::{Joints, PathEnd, Track},
 };
 use base::tolerance;
 use model::interface::Model;

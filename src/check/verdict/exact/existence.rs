@@ -51,7 +51,7 @@ pub const MOST_BLOCKS: usize = 1500;
 
 /// A force that can change, and what it does.
 struct Column {
-    place: Place,
+    place: ForceAt,
     /// Rows of the blocks that it acts on, with the arm; first the one that it acts on with the
     /// opposite sign.
     blocks: [Option<(usize, Vector3<f64>)>; 2],
@@ -61,7 +61,7 @@ struct Column {
 
 /// Where a force stands.
 #[derive(Clone, Copy)]
-enum Place {
+enum ForceAt {
     /// In a contact, at one of its points.
     Contact(usize, usize),
     /// In a member that acts at one point.
@@ -72,7 +72,7 @@ impl Column {
     /// Adds a change of it to a balance, without rounding.
     fn put(&self, interfaces: &Interfaces, change: &Vector3<f64>, balance: &mut Balance) {
         match self.place {
-            Place::Contact(k, point) => {
+            ForceAt::Contact(k, point) => {
                 let force: Pair = match self.direction {
                     Some(n) => multiple(n.dot(change) / n.norm_squared(), &n),
                     None => exactly(change),
@@ -80,7 +80,7 @@ impl Column {
                 let face = &interfaces.list[k];
                 balance.add(face, &face.points[point], &force);
             }
-            Place::Member(m) => {
+            ForceAt::Member(m) => {
                 let own = &interfaces.members[m];
                 balance.add_member(own, &in_amounts(own, change));
             }
@@ -200,12 +200,12 @@ pub fn improved(model: &Model, forces: &Forces, lambda: f64) -> Option<Forces> {
         })?;
         for (column, change) in columns.iter().zip(changes) {
             match column.place {
-                Place::Contact(k, point) => {
+                ForceAt::Contact(k, point) => {
                     let face = &interfaces.list[k];
                     balance.add(face, &face.points[point], &exactly(&change));
                     improved[k][point].force += change;
                 }
-                Place::Member(m) => {
+                ForceAt::Member(m) => {
                     let own = &interfaces.members[m];
                     let change = in_amounts(own, &change);
                     balance.add_member(own, &change);
@@ -308,7 +308,7 @@ fn columns(part: &Members, model: &Model, rooms: &[Option<Vec<Room>>]) -> Vec<Co
             let blocks = [face.a, face.b]
                 .map(|i| Some((*row_of.get(&i)?, point - assembly.blocks[i].centroid)));
             list.push(Column {
-                place: Place::Contact(k, p),
+                place: ForceAt::Contact(k, p),
                 blocks,
                 room: r.margin,
                 direction: r.direction,
@@ -326,7 +326,7 @@ fn columns(part: &Members, model: &Model, rooms: &[Option<Vec<Room>>]) -> Vec<Co
             Some((*row_of.get(&i)?, leg.at - assembly.blocks[i].centroid))
         });
         list.push(Column {
-            place: Place::Member(m),
+            place: ForceAt::Member(m),
             blocks,
             room: room.margin,
             direction: room.direction,

@@ -2,7 +2,7 @@
 
 use super::{
     check,
-    place::Place,
+    origin::Origin,
     shape::{self, Frame},
 };
 use crate::assembly::{Block, Elastic, Gyration, Mend};
@@ -37,7 +37,7 @@ pub(super) fn resolve(
     let mut mended = Mended::default();
     // Per block: its density, where somebody chose one.
     let mut chosen = Vec::with_capacity(scene.blocks.len());
-    let mut add = |spec: &BlockSpec, place: &Place| -> Result<(), InputError> {
+    let mut add = |spec: &BlockSpec, place: &Origin| -> Result<(), InputError> {
         if is_over() {
             let text = format!("the time was up after {} blocks had been resolved", blocks.len());
             return Err(InputError::at(JsonPath::root(), text).hint("allow more time"));
@@ -50,7 +50,7 @@ pub(super) fn resolve(
     let mut count = scene.blocks.len();
     few(count, &root.key("blocks"))?;
     for (i, spec) in scene.blocks.iter().enumerate() {
-        add(spec, &Place { path: root.key("blocks").index(i), generated: None })?;
+        add(spec, &Origin { path: root.key("blocks").index(i), generated: None })?;
     }
     for (i, template) in scene.templates.iter().enumerate() {
         let path = root.key("templates").index(i);
@@ -58,7 +58,7 @@ pub(super) fn resolve(
         count += specs.len();
         few(count, &path)?;
         for spec in specs {
-            add(&spec, &Place { path: path.clone(), generated: Some(spec.id.clone()) })?;
+            add(&spec, &Origin { path: path.clone(), generated: Some(spec.id.clone()) })?;
         }
     }
     let mut findings = mended.findings();
@@ -71,7 +71,7 @@ pub(super) fn in_scene(
     spec: &BlockSpec,
     point: nalgebra::Vector3<f64>,
 ) -> Result<nalgebra::Vector3<f64>, InputError> {
-    let place = Place { path: JsonPath::root(), generated: Some(spec.id.clone()) };
+    let place = Origin { path: JsonPath::root(), generated: Some(spec.id.clone()) };
     Ok(Frame::new(spec, &place)?.apply(point))
 }
 
@@ -94,7 +94,7 @@ fn few(count: usize, path: &JsonPath) -> Result<(), InputError> {
 fn block(
     scene: &Scene,
     spec: &BlockSpec,
-    place: &Place,
+    place: &Origin,
     mended: &mut Mended,
 ) -> Result<(Block, Option<f64>), InputError> {
     let root = JsonPath::root();

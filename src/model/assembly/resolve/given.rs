@@ -15,7 +15,7 @@ use base::{
 use nalgebra::{Vector2, Vector3};
 use scene::{InterfaceSpec, Scene};
 
-type Point = Vector3<f64>;
+type Corner = Vector3<f64>;
 
 /// The given interfaces and what was mended in them.
 pub(super) fn resolve(
@@ -168,7 +168,7 @@ fn off_plane(path: &JsonPath, sine: f64, what: &str) -> InputError {
 }
 
 /// Points further than `near` from every earlier one.
-fn distinct(points: Vec<Point>, near: f64, path: &JsonPath, notes: &mut Notes) -> Vec<Point> {
+fn distinct(points: Vec<Corner>, near: f64, path: &JsonPath, notes: &mut Notes) -> Vec<Corner> {
     let before = points.len();
     // Sorted along the longest axis, only neighbours within `near` have to be looked at.
     let (low, high) = points.iter().fold((points[0], points[0]), |(l, h), p| (l.inf(p), h.sup(p)));
@@ -185,7 +185,7 @@ fn distinct(points: Vec<Point>, near: f64, path: &JsonPath, notes: &mut Notes) -
             repeated[j] |= (points[j] - points[i]).norm() <= near;
         }
     }
-    let kept: Vec<Point> =
+    let kept: Vec<Corner> =
         points.into_iter().zip(repeated).filter(|(_, r)| !r).map(|(p, _)| p).collect();
     if kept.len() < before {
         notes.add(Note::Repeated, path, (before - kept.len()) as f64);
@@ -199,11 +199,11 @@ enum Spread {
     /// The two ends.
     Line(usize, usize),
     /// A unit normal of the plane of the widest triangle found.
-    Plane(Point),
+    Plane(Corner),
 }
 
-fn spread(points: &[Point], near: f64) -> Spread {
-    let farthest = |measure: &dyn Fn(&Point) -> f64| {
+fn spread(points: &[Corner], near: f64) -> Spread {
+    let farthest = |measure: &dyn Fn(&Corner) -> f64| {
         (0..points.len())
             .map(|i| (i, measure(&points[i])))
             .max_by(|x, y| x.1.total_cmp(&y.1))
@@ -225,12 +225,12 @@ fn spread(points: &[Point], near: f64) -> Spread {
 /// The convex hull of points that span a plane, counter-clockwise about `raw`, and its unit normal
 /// on the same side.
 fn polygon(
-    points: &[Point],
-    raw: Point,
+    points: &[Corner],
+    raw: Corner,
     extent: f64,
     path: &JsonPath,
     notes: &mut Notes,
-) -> (Vec<Point>, Point) {
+) -> (Vec<Corner>, Corner) {
     let axis = Vector3::ith(raw.iamin(), 1.0);
     let u = (axis - raw * raw.dot(&axis)).normalize();
     let v = raw.cross(&u);
@@ -253,9 +253,9 @@ fn polygon(
     if falls != 1 && falls != n - 1 {
         notes.add(Note::Reordered, path, n as f64);
     }
-    let corners: Vec<Point> = hull.iter().map(|&i| points[i]).collect();
+    let corners: Vec<Corner> = hull.iter().map(|&i| points[i]).collect();
     // Newell: twice the vector area, about the first corner.
-    let area: Point =
+    let area: Corner =
         corners.windows(2).map(|w| (w[0] - corners[0]).cross(&(w[1] - corners[0]))).sum();
     (corners, area.normalize())
 }
@@ -270,14 +270,14 @@ fn depth(points: &[Vector2<f64>], hull: &[usize], i: usize) -> f64 {
 }
 
 /// The signed distances of the points from their mean plane.
-fn off_mean_plane(points: &[Point], normal: Point) -> Vec<f64> {
+fn off_mean_plane(points: &[Corner], normal: Corner) -> Vec<f64> {
     let heights: Vec<f64> = points.iter().map(|p| normal.dot(&(p - points[0]))).collect();
     let mean = heights.iter().sum::<f64>() / heights.len() as f64;
     heights.into_iter().map(|h| h - mean).collect()
 }
 
 /// The normal turned from the first block's centre towards the second's.
-fn away(normal: Point, one: &Block, two: &Block, path: &JsonPath) -> Result<Point, InputError> {
+fn away(normal: Corner, one: &Block, two: &Block, path: &JsonPath) -> Result<Corner, InputError> {
     let between = two.centroid - one.centroid;
     let height = normal.dot(&between);
     // Closer to the plane than this the sign is a matter of rounding.
@@ -292,7 +292,7 @@ fn away(normal: Point, one: &Block, two: &Block, path: &JsonPath) -> Result<Poin
 }
 
 /// Distance of a point from the bounding box of a block.
-fn outside(point: &Point, block: &Block) -> f64 {
+fn outside(point: &Corner, block: &Block) -> f64 {
     match &block.solid {
         Solid::Sphere { center, radius } => ((point - center).norm() - radius).max(0.0),
         Solid::Clump { balls, .. } => {

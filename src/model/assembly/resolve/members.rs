@@ -30,7 +30,7 @@ pub(super) fn resolve(
         let placed = generate::members(template).into_iter().enumerate();
         specs.extend(placed.map(|(i, m)| (m, path.index(i))));
     }
-    let place = Place { scene, assembly, names };
+    let place = Resolver { scene, assembly, names };
     let (mut plans, mut findings, mut seen) = (Vec::new(), Vec::new(), HashSet::new());
     for (spec, path) in &specs {
         if spec.id.trim().is_empty() {
@@ -49,13 +49,13 @@ pub(super) fn resolve(
     Ok((plans, findings))
 }
 
-struct Place<'a> {
+struct Resolver<'a> {
     scene: &'a Scene,
     assembly: &'a Assembly,
     names: &'a Names,
 }
 
-impl Place<'_> {
+impl Resolver<'_> {
     fn member(
         &self,
         spec: &Spec,

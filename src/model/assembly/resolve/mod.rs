@@ -11,7 +11,7 @@ mod given;
 mod joints;
 mod loads;
 mod members;
-mod place;
+mod origin;
 mod prism;
 mod shape;
 mod site;

@@ -7,7 +7,7 @@ use base::{
 };
 use nalgebra::{Vector2, Vector3};
 
-type Point = Vector2<f64>;
+type Corner = Vector2<f64>;
 
 /// Vertices, and faces as loops of their indices, counter-clockwise seen from outside.
 pub(super) type Surface = (Vec<Vector3<f64>>, Vec<Vec<usize>>);
@@ -19,7 +19,7 @@ pub(super) fn faces(
     depth: f64,
     path: &JsonPath,
 ) -> Result<Surface, InputError> {
-    let mut points: Vec<Point> = polygon.iter().map(|&p| p.into()).collect();
+    let mut points: Vec<Corner> = polygon.iter().map(|&p| p.into()).collect();
     simple(&points, path)?;
     if area(&points) < 0.0 {
         points.reverse();
@@ -39,7 +39,7 @@ pub(super) fn faces(
 /// Refuses a polygon that has fewer than three corners, repeats a corner, or touches or crosses
 /// itself. Everything closer than [`tolerance::WELD`] × the polygon's diagonal touches: the corners
 /// would be welded.
-fn simple(points: &[Point], path: &JsonPath) -> Result<(), InputError> {
+fn simple(points: &[Corner], path: &JsonPath) -> Result<(), InputError> {
     let n = points.len();
     if n < 3 {
         return Err(InputError::at(
@@ -95,19 +95,19 @@ fn simple(points: &[Point], path: &JsonPath) -> Result<(), InputError> {
 }
 
 /// Whether the path a–b–c turns back onto itself.
-fn folds(a: Point, b: Point, c: Point, near: f64) -> bool {
+fn folds(a: Corner, b: Corner, c: Corner, near: f64) -> bool {
     point_distance(a, (b, c)) <= near || point_distance(c, (a, b)) <= near
 }
 
-fn point_distance(p: Point, (a, b): (Point, Point)) -> f64 {
+fn point_distance(p: Corner, (a, b): (Corner, Corner)) -> f64 {
     let along = b - a;
     let t = ((p - a).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
     (p - a - along * t).norm()
 }
 
-fn distance(one: (Point, Point), two: (Point, Point)) -> f64 {
-    let side = |(a, b): (Point, Point), p: Point| (b - a).perp(&(p - a));
-    let split = |edge, (p, q): (Point, Point)| (side(edge, p) > 0.0) != (side(edge, q) > 0.0);
+fn distance(one: (Corner, Corner), two: (Corner, Corner)) -> f64 {
+    let side = |(a, b): (Corner, Corner), p: Corner| (b - a).perp(&(p - a));
+    let split = |edge, (p, q): (Corner, Corner)| (side(edge, p) > 0.0) != (side(edge, q) > 0.0);
     if split(one, two) && split(two, one) {
         return 0.0;
     }

@@ -1,6 +1,6 @@
 //! Shape → [`Solid`] in scene coordinates, with its mass properties at unit density.
 
-use super::{check, place::Place, prism};
+use super::{check, origin::Origin, prism};
 use crate::assembly::{MassProperties, Mend, Polyhedron, Solid, clump};
 use base::error::{InputError, JsonPath};
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
@@ -14,7 +14,7 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    pub(super) fn new(spec: &BlockSpec, place: &Place) -> Result<Self, InputError> {
+    pub(super) fn new(spec: &BlockSpec, place: &Origin) -> Result<Self, InputError> {
         let shift = place.check(check::vector(spec.at, &JsonPath::root().key("at")))?;
         let turn = match &spec.rotation_deg {
             None => None,
@@ -39,7 +39,7 @@ impl Frame {
 }
 
 /// A block's geometry.
-pub(super) struct Body {
+pub(super) struct Geometry {
     pub(super) solid: Solid,
     pub(super) properties: MassProperties,
     pub(super) size: f64,
@@ -47,7 +47,11 @@ pub(super) struct Body {
 }
 
 /// The geometry of a block in scene coordinates.
-pub(super) fn body(spec: &BlockSpec, frame: &Frame, place: &Place) -> Result<Body, InputError> {
+pub(super) fn body(
+    spec: &BlockSpec,
+    frame: &Frame,
+    place: &Origin,
+) -> Result<Geometry, InputError> {
     let path = JsonPath::root().key("shape");
     match &spec.shape {
         Shape::Sphere { radius } => {
@@ -57,7 +61,7 @@ pub(super) fn body(spec: &BlockSpec, frame: &Frame, place: &Place) -> Result<Bod
             let center = frame.apply(Vector3::zeros());
             let inertia = Matrix3::identity() * (0.4 * volume * radius * radius);
             let properties = MassProperties { volume, centroid: center, inertia };
-            Ok(Body {
+            Ok(Geometry {
                 solid: Solid::Sphere { center, radius },
                 properties,
                 size: 2.0 * radius * 3f64.sqrt(),
@@ -97,7 +101,7 @@ pub(super) fn body(spec: &BlockSpec, frame: &Frame, place: &Place) -> Result<Bod
                 .hint("lengths are in m")));
             }
             let size = diagonal(&ends);
-            Ok(Body {
+            Ok(Geometry {
                 solid: Solid::Clump { balls, volume: properties.volume },
                 properties,
                 size,
@@ -188,7 +192,7 @@ pub(super) fn body(spec: &BlockSpec, frame: &Frame, place: &Place) -> Result<Bod
                 }))?;
             let size = diagonal(&polyhedron.vertices);
             let properties = polyhedron.mass_properties();
-            Ok(Body { solid: Solid::Polyhedron(polyhedron), properties, size, mended })
+            Ok(Geometry { solid: Solid::Polyhedron(polyhedron), properties, size, mended })
         }
     }
 }

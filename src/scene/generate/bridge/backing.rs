@@ -6,7 +6,7 @@
 use super::{Plan, SpanPlan, chord::Chord};
 use crate::{
     BlockSpec, Shape,
-    generate::{check::Place, midline::Point, numbered, support},
+    generate::{check::TemplatePath, midline::Xz, numbered, support},
     template::Bridge,
 };
 use base::{error::InputError, tolerance};
@@ -16,8 +16,8 @@ use base::{error::InputError, tolerance};
 const LEAST_COURSE: f64 = 0.25;
 
 /// The place of the backing in errors.
-pub(super) fn place() -> Place {
-    Place(Place::template("bridge").0.key("fill").key("backing"))
+pub(super) fn place() -> TemplatePath {
+    TemplatePath(TemplatePath::template("bridge").0.key("fill").key("backing"))
 }
 
 /// The backing of a bridge.
@@ -37,16 +37,16 @@ pub(super) struct Haunching {
     /// What its courses are called, followed by a number.
     name: String,
     /// From the lowest to the highest.
-    courses: Vec<Vec<Point>>,
+    courses: Vec<Vec<Xz>>,
     /// The support below, at an end of the bridge.
-    abutment: Option<(String, Vec<Point>)>,
+    abutment: Option<(String, Vec<Xz>)>,
     /// The level top, from left to right.
-    pub top: [Point; 2],
+    pub top: [Xz; 2],
 }
 
 /// One side of a haunching from its foot up, each point higher than the one before; the last one counts
 /// for all that is higher.
-struct Side(Vec<Point>);
+struct Side(Vec<Xz>);
 
 impl Side {
     /// The extrados of a span from its springing on the left (0) or right (1) up, as far as it
@@ -56,7 +56,7 @@ impl Side {
         let placed = last.voussoirs.iter().map(|v| span.placed(v));
         // The last two points of a voussoir are the right and the left end of its extrados.
         let ends = placed.filter_map(|v| Some([*v.get(v.len().checked_sub(1)?)?, v[v.len() - 2]]));
-        let mut points: Vec<Point> = Vec::new();
+        let mut points: Vec<Xz> = Vec::new();
         for [left, right] in ends {
             if points.is_empty() {
                 points.push(left);
@@ -72,11 +72,11 @@ impl Side {
     }
 
     /// A vertical line upwards.
-    fn vertical(foot: Point) -> Self {
+    fn vertical(foot: Xz) -> Self {
         Self(vec![foot])
     }
 
-    fn foot(&self) -> Point {
+    fn foot(&self) -> Xz {
         self.0[0]
     }
 
@@ -95,13 +95,13 @@ impl Side {
     }
 
     /// Its points between two heights.
-    fn between(&self, low: f64, high: f64) -> impl DoubleEndedIterator<Item = Point> {
+    fn between(&self, low: f64, high: f64) -> impl DoubleEndedIterator<Item = Xz> {
         self.0.iter().copied().filter(move |p| p[1] > low && p[1] < high)
     }
 }
 
 /// The courses between two sides up to a height.
-fn courses(sides: &[Side; 2], height: f64, least: f64, snap: f64) -> Vec<Vec<Point>> {
+fn courses(sides: &[Side; 2], height: f64, least: f64, snap: f64) -> Vec<Vec<Xz>> {
     let [left, right] = sides;
     let foot = left.foot()[1].max(right.foot()[1]);
     let mut cuts: Vec<f64> = sides.iter().flat_map(|s| &s.0).map(|p| p[1]).collect();
@@ -184,7 +184,7 @@ impl Masonry {
 
     /// Its blocks.
     pub(super) fn blocks(&self, depth: f64) -> Vec<BlockSpec> {
-        let prism = |polygon: &Vec<Point>| Shape::Prism { polygon: polygon.clone(), depth };
+        let prism = |polygon: &Vec<Xz>| Shape::Prism { polygon: polygon.clone(), depth };
         let mut list = Vec::new();
         for haunching in self.all() {
             let courses = haunching.names().zip(&haunching.courses);
@@ -285,9 +285,9 @@ impl Haunching {
 
     /// The pieces of the vertical back on the left (0) or right (1) end of a bridge: the course, and
     /// the middle of what is its back.
-    pub(super) fn back(&self, side: usize) -> Vec<(String, Point)> {
+    pub(super) fn back(&self, side: usize) -> Vec<(String, Xz)> {
         let x = self.top[side][0];
-        let middle = |polygon: &Vec<Point>| {
+        let middle = |polygon: &Vec<Xz>| {
             let at_back = polygon.iter().filter(|p| p[0] == x).map(|p| p[1]);
             let ends = at_back.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], z| {
                 [low.min(z), high.max(z)]

@@ -1,6 +1,6 @@
 //! Straight pieces of the upper surface of a bridge.
 
-use crate::generate::midline::Point;
+use crate::generate::midline::Xz;
 
 /// A straight piece of the upper surface.
 #[derive(Clone, Debug, PartialEq)]
@@ -8,9 +8,9 @@ pub struct Chord {
     /// The block below it.
     pub block: String,
     /// Its left end (x, z), m.
-    pub from: Point,
+    pub from: Xz,
     /// Its right end, m.
-    pub to: Point,
+    pub to: Xz,
     /// Which way the fill pushes that resists it: towards the span, +1 or −1 along x; 0 on piers
     /// and where it is level.
     pub towards: f64,

@@ -3,7 +3,7 @@
 
 use super::{PierPlan, Plan, SpanPlan, backing::Masonry, chord::Chord, voussoir};
 use crate::{
-    generate::check::Place,
+    generate::check::TemplatePath,
     template::{Bridge, BridgePier},
 };
 use base::error::InputError;
@@ -47,7 +47,7 @@ pub(super) fn chords(bridge: &Bridge, plan: &Plan, masonry: Option<&Masonry>) ->
 /// A pier with its left springing at `edge`; its last points are the right and the left end of its top
 /// and the left springing.
 pub(super) fn pier(
-    place: &Place,
+    place: &TemplatePath,
     pier: &BridgePier,
     spans: [&SpanPlan; 2],
     edge: f64,

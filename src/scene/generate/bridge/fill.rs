@@ -19,7 +19,7 @@ use super::{
 };
 use crate::{
     At, Load, Member, OnRoad,
-    generate::{check::Place, midline::Point},
+    generate::{check::TemplatePath, midline::Xz},
     member::{Face, Near, Soil},
     template::{Bridge, Distribution, Fill},
 };
@@ -55,7 +55,7 @@ pub(super) fn check(
     masonry: Option<&Masonry>,
 ) -> Result<(), InputError> {
     let Some(fill) = &bridge.fill else { return Ok(()) };
-    let place = Place(Place::template("bridge").0.key("fill"));
+    let place = TemplatePath(TemplatePath::template("bridge").0.key("fill"));
     place.length("unit_weight", fill.unit_weight)?;
     place.finite("gradient", fill.gradient)?;
     let at_least = |field: &str, value: f64, hint: &str| {
@@ -237,7 +237,7 @@ pub fn soil(bridge: &Bridge) -> Vec<Member> {
     let all = resistance(fill);
     let backing = fill.backing.as_ref();
     let road = Road::of(bridge, fill, &plan);
-    let resists = |(block, middle, towards): (String, Point, f64)| {
+    let resists = |(block, middle, towards): (String, Xz, f64)| {
         let surface = road.height(middle[0]);
         let own = backing.filter(|b| b.masonry.is_none() && middle[1] < b.height);
         let k = own.and_then(|b| b.passive).unwrap_or(all);

@@ -13,8 +13,8 @@ pub use said::said;
 
 use super::{
     arch::{Section, radial_rings, ring_between},
-    check::Place,
-    midline::{Fields, Point, mirror},
+    check::TemplatePath,
+    midline::{Fields, Xz, mirror},
     numbered, support,
     surveyed::Surveyed,
 };
@@ -41,12 +41,12 @@ struct SpanPlan {
     /// Distance between the springings of the intrados, m.
     clear_span: f64,
     /// The crown of the intrados: x from the middle between the springings, height over them, m.
-    crown: Point,
+    crown: Xz,
 }
 
 struct PierPlan {
-    body: Vec<Point>,
-    footing: Vec<Point>,
+    body: Vec<Xz>,
+    footing: Vec<Xz>,
 }
 
 pub fn blocks(bridge: &Bridge) -> Result<Vec<BlockSpec>, InputError> {
@@ -94,7 +94,7 @@ fn voussoir(bridge: &Bridge, span: usize, ring: usize, index: usize, count: usiz
 }
 
 impl SpanPlan {
-    fn of(place: &Place, span: &BridgeSpan) -> Result<Self, InputError> {
+    fn of(place: &TemplatePath, span: &BridgeSpan) -> Result<Self, InputError> {
         place.length("thickness", span.thickness)?;
         place.count("rings", span.rings, 1)?;
         let springing = span.springing_thickness.unwrap_or(span.thickness);
@@ -113,7 +113,11 @@ impl SpanPlan {
     }
 
     /// With an intrados by points.
-    fn surveyed(place: &Place, span: &BridgeSpan, springing: f64) -> Result<Self, InputError> {
+    fn surveyed(
+        place: &TemplatePath,
+        span: &BridgeSpan,
+        springing: f64,
+    ) -> Result<Self, InputError> {
         let given = [
             ("clear_span", span.clear_span != 0.0),
             ("rise", span.rise != 0.0),
@@ -139,13 +143,13 @@ impl SpanPlan {
         Ok(Self { rings, center: 0.0, up: 0.0, clear_span, crown })
     }
 
-    fn placed(&self, polygon: &[Point]) -> Vec<Point> {
+    fn placed(&self, polygon: &[Xz]) -> Vec<Xz> {
         polygon.iter().map(|p| [p[0] + self.center, p[1] + self.up]).collect()
     }
 
     /// How far the springing joint on the left (0) or the right (1) reaches out over what it stands
     /// on, and up, from the end of the intrados to that of the outermost extrados, m.
-    fn springing(&self, side: usize) -> Point {
+    fn springing(&self, side: usize) -> Xz {
         let [first, last] = [&self.rings[0], &self.rings[self.rings.len() - 1]];
         let joint = match side {
             0 => [first.voussoirs[0][0], last.voussoirs[0][3]].map(mirror),
@@ -158,7 +162,7 @@ impl SpanPlan {
 
 impl Plan {
     fn of(bridge: &Bridge) -> Result<Self, InputError> {
-        let place = Place::template("bridge");
+        let place = TemplatePath::template("bridge");
         place.length("width", bridge.width)?;
         place.count("spans", bridge.spans.len(), 1)?;
         if bridge.piers.len() + 1 != bridge.spans.len() {
@@ -180,7 +184,7 @@ impl Plan {
         place.total("spans", &[counts.unwrap_or(usize::MAX)])?;
         let mut spans = Vec::new();
         for (k, span) in bridge.spans.iter().enumerate() {
-            spans.push(SpanPlan::of(&Place(place.0.key("spans").index(k)), span)?);
+            spans.push(SpanPlan::of(&TemplatePath(place.0.key("spans").index(k)), span)?);
         }
         let clear: f64 = spans.iter().map(|s: &SpanPlan| s.clear_span).sum();
         let total = clear + bridge.piers.iter().map(|p| p.width).sum::<f64>();
@@ -191,7 +195,7 @@ impl Plan {
             spans[k].center = edge + half;
             edge += 2.0 * half;
             let Some(pier) = bridge.piers.get(k) else { break };
-            let place = Place(place.0.key("piers").index(k));
+            let place = TemplatePath(place.0.key("piers").index(k));
             piers.push(course::pier(&place, pier, [&spans[k], &spans[k + 1]], edge)?);
             edge += pier.width;
         }

@@ -129,7 +129,7 @@ impl Vessel {
 
     /// That not all grains fit in.
     pub fn full(&self, p: &Protocol, placed: usize) -> InputError {
-        let place = super::Place::template("repose");
+        let place = super::TemplatePath::template("repose");
         let [_, within, ..] = self.cell;
         let (what, hint) = match p.kind {
             ProtocolKind::Drum => (

@@ -8,13 +8,13 @@
 
 use base::{error::InputError, plane::polygon::P2};
 use check::{
-    verdict::Rate,
-    yielding::{
+    elastic::{
         JointKind, Joints, Quadrature, System,
-        bed::{Bed, Place},
+        bed::{Bed, Domain},
         law::{Resultant, along, opens},
         number::Number,
     },
+    verdict::Rate,
 };
 use model::{assembly::Wrench, interface::Model};
 use nalgebra::Vector6;
@@ -194,13 +194,13 @@ impl Springs {
 
 /// Points of a bed with their shares of the area.
 fn points(bed: &Bed, finer: usize) -> Vec<(P2, f64)> {
-    let Place::Triangles(list) = &bed.place else { return bed.whole() };
+    let Domain::Triangles(list) = &bed.place else { return bed.whole() };
     let mut triangles = list.clone();
     for _ in 0..finer {
         let polygons: Vec<Vec<P2>> = triangles.iter().map(|t| t.to_vec()).collect();
         triangles = Bed::triangles(&polygons);
     }
-    Bed { place: Place::Triangles(triangles), ..bed.clone() }.whole()
+    Bed { place: Domain::Triangles(triangles), ..bed.clone() }.whole()
 }
 
 fn size(w: &Vector6<f64>, block: f64) -> f64 {

@@ -12,7 +12,7 @@ use nalgebra::{Matrix2, Vector2, Vector3};
 
 /// Displacements of all blocks, and what their joints remember.
 #[derive(Clone, Debug)]
-pub struct State {
+pub struct ElasticState {
     /// Displacement of the centre of mass (m) and small rotation (rad) of every block.
     pub displaced: Vec<Rate>,
     /// One a joint.
@@ -45,7 +45,7 @@ pub struct JointState {
     pub opening: [f64; 2],
 }
 
-impl State {
+impl ElasticState {
     /// Nothing has moved, nothing presses.
     pub fn start(model: &Model, joints: &Joints) -> Self {
         let past = joints.list.iter().map(|j| match j.kind {

@@ -30,10 +30,10 @@ mod track;
 
 pub use factor::{PathEnd, PathFactor};
 pub use frequencies::{COUNT, frequencies};
-pub use joints::{Joint, JointKind, Joints, Past, Quadrature, needs};
+pub use joints::{ElasticJoint, JointKind, Joints, Past, Quadrature, needs};
 pub use member::Carries;
 pub use residual::{Residuals, residuals};
-pub use state::{JointState, State, States, corner_forces};
+pub use state::{ElasticState, JointState, States, corner_forces};
 pub use system::{System, Tangent};
 pub use track::{
     Condition, Conditions, EventKind, Grip, Step, Touch, Track, Where, conditions, events,

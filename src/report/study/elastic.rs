@@ -8,13 +8,13 @@ use super::{
     chart::{StudyChartError, dots},
 };
 use base::number::seconds;
-use sweep::study::{YieldingMethod, YieldingPoint};
+use sweep::study::{ElasticMethod, ElasticPoint};
 
 /// A table of every point.
 ///
 /// # Errors
 /// The writer's, which has no reason to fail in memory.
-pub fn yielding_csv(points: &[YieldingPoint]) -> Result<String, csv::Error> {
+pub fn elastic_csv(points: &[ElasticPoint]) -> Result<String, csv::Error> {
     let head = ["case", "method", "unbalance", "value", "exact", "relative_error", "seconds"];
     let mut out = Table::with_head(head)?;
     for p in points {
@@ -26,8 +26,8 @@ pub fn yielding_csv(points: &[YieldingPoint]) -> Result<String, csv::Error> {
 }
 
 /// Points of a method with one setting of its knob.
-fn settings(points: &[YieldingPoint]) -> Vec<(YieldingMethod, f64)> {
-    let mut list: Vec<(YieldingMethod, f64)> = Vec::new();
+fn settings(points: &[ElasticPoint]) -> Vec<(ElasticMethod, f64)> {
+    let mut list: Vec<(ElasticMethod, f64)> = Vec::new();
     for p in points {
         if !list.contains(&(p.method, p.knob)) {
             list.push((p.method, p.knob));
@@ -36,7 +36,7 @@ fn settings(points: &[YieldingPoint]) -> Vec<(YieldingMethod, f64)> {
     list
 }
 
-fn name(method: YieldingMethod, knob: f64) -> String {
+fn name(method: ElasticMethod, knob: f64) -> String {
     match knob > 0.0 {
         true => format!("{}, to {knob:.0e}", method.label()),
         false => method.label().into(),
@@ -44,7 +44,7 @@ fn name(method: YieldingMethod, knob: f64) -> String {
 }
 
 /// What came out by kind of value, then by method.
-pub fn yielding_text(points: &[YieldingPoint], layout: Layout) -> Page {
+pub fn elastic_text(points: &[ElasticPoint], layout: Layout) -> Page {
     let mut page = Page::new(layout);
     let missed = points.iter().filter(|p| p.value.is_none()).count();
     let title = match missed {
@@ -54,7 +54,7 @@ pub fn yielding_text(points: &[YieldingPoint], layout: Layout) -> Page {
     page.title("Joints that yield: error against run time", title, Role::Value);
     page.blank();
     for (kind, of) in [("ways", false), ("factors", true)] {
-        let line = |&(method, knob): &(YieldingMethod, f64)| {
+        let line = |&(method, knob): &(ElasticMethod, f64)| {
             let own = || {
                 let all = points.iter().filter(|p| p.method == method && p.knob == knob);
                 all.filter(|p| p.is_factor == of)
@@ -83,8 +83,8 @@ pub fn yielding_text(points: &[YieldingPoint], layout: Layout) -> Page {
 ///
 /// # Errors
 /// Nothing has an error.
-pub fn yielding_chart(points: &[YieldingPoint]) -> Result<String, StudyChartError> {
-    let series = YieldingMethod::ALL.into_iter().map(|method| {
+pub fn elastic_chart(points: &[ElasticPoint]) -> Result<String, StudyChartError> {
+    let series = ElasticMethod::ALL.into_iter().map(|method| {
         let own = points.iter().filter(|p| p.method == method);
         let dots = own.filter_map(|p| Some((p.seconds, p.error?)));
         (method.label().to_string(), dots.collect())

@@ -6,7 +6,7 @@ use super::{
     law::AT_LIMIT,
     member::Carries,
     residual::{Residuals, residuals},
-    state::{State, States, corner_forces},
+    state::{ElasticState, States, corner_forces},
 };
 use crate::verdict::{Forces, Rate};
 use model::interface::Model;
@@ -111,13 +111,13 @@ pub struct Track {
     /// The states, the one under the dead load first.
     pub steps: Vec<Step>,
     /// What the joints remember of the last one.
-    pub state: State,
+    pub state: ElasticState,
     /// What the joints and members do under the dead load.
     pub dead: States,
     /// The same as forces at the corners.
     pub forces: Forces,
     /// What the joints remember under the dead load.
-    pub at_rest: State,
+    pub at_rest: ElasticState,
     /// What the joints and members do in the last state.
     pub last: States,
     /// The forces of the last state, at the corners.
@@ -134,7 +134,7 @@ const TOUCHES: f64 = 1e-12;
 impl Track {
     /// Begins with displacements under the dead load.
     pub fn start(model: &Model, joints: &Joints, displaced: Vec<Rate>) -> Self {
-        let (state, dead) = State::start(model, joints).step(model, joints, displaced);
+        let (state, dead) = ElasticState::start(model, joints).step(model, joints, displaced);
         let forces = corner_forces(model, joints, &dead);
         let step = Step {
             load_factor: 0.0,

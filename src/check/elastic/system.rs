@@ -1,10 +1,10 @@
 //! The equations of a model in blocks of 6 × 6: what all joints together do to the free blocks.
 
 use super::{
-    joints::{Joint, JointKind, Joints},
+    joints::{ElasticJoint, JointKind, Joints},
     law::{Friction, Resultant, along, opens},
     member::Carries,
-    state::State,
+    state::ElasticState,
 };
 use crate::verdict::Rate;
 use base::plane::Sets;
@@ -88,7 +88,7 @@ impl<'a> System<'a> {
     /// What is left of the loads on the free blocks, and the sum of all that acts on them.
     pub fn left(
         &self,
-        state: &State,
+        state: &ElasticState,
         loads: &[Wrench],
         displaced: &[Rate],
         glue: f64,
@@ -157,7 +157,7 @@ impl<'a> System<'a> {
     /// The tangent of all joints at a displacement.
     pub fn tangent(
         &self,
-        state: &State,
+        state: &ElasticState,
         displaced: &[Rate],
         glue: f64,
         friction: Friction,
@@ -270,7 +270,7 @@ fn six(w: &Wrench) -> Vector6<f64> {
 
 /// The slopes of a glued joint: all of it presses, pulls and holds against sliding. Of spheres as
 /// stiff as under the heavier one's weight.
-fn glued(model: &Model, joint: &Joint) -> Matrix6<f64> {
+fn glued(model: &Model, joint: &ElasticJoint) -> Matrix6<f64> {
     let mut slopes = Matrix6::zeros();
     match &joint.kind {
         JointKind::Bed(bed) => {

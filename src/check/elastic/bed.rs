@@ -30,12 +30,12 @@ pub struct Bed {
     /// Coefficient of friction; infinite where nothing slides.
     pub mu: f64,
     /// Where it is integrated.
-    pub place: Place,
+    pub place: Domain,
 }
 
 /// Where a bed is integrated.
 #[derive(Clone, Debug)]
-pub enum Place {
+pub enum Domain {
     /// Over the pressed part of triangles, exactly.
     Triangles(Vec<[P2; 3]>),
     /// At points with a share of the area each, m².
@@ -75,30 +75,30 @@ impl Bed {
     /// Its area, m².
     pub fn area(&self) -> f64 {
         match &self.place {
-            Place::Triangles(list) => list.iter().map(|t| area(t).abs()).sum(),
-            Place::Points(list) => list.iter().map(|p| p.1).sum(),
+            Domain::Triangles(list) => list.iter().map(|t| area(t).abs()).sum(),
+            Domain::Points(list) => list.iter().map(|p| p.1).sum(),
         }
     }
 
     /// Points with their shares of the area that integrate over all of it, pressed or not.
     pub fn whole(&self) -> Vec<(P2, f64)> {
         match &self.place {
-            Place::Triangles(list) => list
+            Domain::Triangles(list) => list
                 .iter()
                 .flat_map(|&[a, b, c]| {
                     let third = area(&[a, b, c]).abs() / 3.0;
                     [(a + b) / 2.0, (b + c) / 2.0, (c + a) / 2.0].map(|p| (p, third))
                 })
                 .collect(),
-            Place::Points(list) => list.clone(),
+            Domain::Points(list) => list.clone(),
         }
     }
 
     /// The corners between which its opening is greatest and least.
     pub fn corners(&self) -> Vec<P2> {
         match &self.place {
-            Place::Triangles(list) => list.iter().flatten().copied().collect(),
-            Place::Points(list) => list.iter().map(|p| p.0).collect(),
+            Domain::Triangles(list) => list.iter().flatten().copied().collect(),
+            Domain::Points(list) => list.iter().map(|p| p.0).collect(),
         }
     }
 
@@ -183,12 +183,12 @@ impl Bed {
     /// The points of the pressed part.
     fn pressed<S: Number>(&self, motion: &[S; 6], mut tell: impl FnMut(Sample<S>)) {
         match &self.place {
-            Place::Points(list) => {
+            Domain::Points(list) => {
                 for (p, area) in list {
                     tell(Sample { at: [p.x, p.y].map(S::of), area: S::of(*area) });
                 }
             }
-            Place::Triangles(list) => {
+            Domain::Triangles(list) => {
                 for triangle in list {
                     let corners = triangle.map(|p| {
                         let at = [p.x, p.y].map(S::of);

@@ -3,13 +3,13 @@
 use base::error::{InputError, JsonPath};
 
 /// Where a block comes from, for errors about it.
-pub(super) struct Place {
+pub(super) struct Origin {
     pub path: JsonPath,
     /// The name of a block that no key of the file holds.
     pub generated: Option<String>,
 }
 
-impl Place {
+impl Origin {
     /// Turns a path relative to the block into one from the root: a block of a template has no keys
     /// of its own.
     pub(super) fn check<T>(&self, result: Result<T, InputError>) -> Result<T, InputError> {

@@ -1,7 +1,7 @@
 //! The joints of a model, each with its stiffness.
 
 use super::{
-    bed::{Bed, Place},
+    bed::{Bed, Domain},
     grain::Grain,
     law::{Friction, Resultant},
     member::Line,
@@ -47,7 +47,7 @@ pub enum Quadrature {
 #[derive(Clone, Debug)]
 pub struct Joints {
     /// The joints.
-    pub list: Vec<Joint>,
+    pub list: Vec<ElasticJoint>,
     /// Ties, struts, bars and tendons, in the order of the scene's members.
     pub lines: Vec<Line>,
     /// The free blocks of the structures that a live load acts on; others do not take part in what
@@ -59,7 +59,7 @@ pub struct Joints {
 
 /// A joint that yields.
 #[derive(Clone, Debug)]
-pub struct Joint {
+pub struct ElasticJoint {
     /// Index of the first block.
     pub a: usize,
     /// Index of the second block.
@@ -131,7 +131,7 @@ impl Joints {
         let faces = &model.interfaces.list;
         let corners = Corners::new(model);
         let mut told = Told::default();
-        let list: Vec<Joint> = faces
+        let list: Vec<ElasticJoint> = faces
             .iter()
             .map(|face| joint(&model.assembly, face, quadrature, &corners, &mut told))
             .collect::<Result<_, _>>()?;
@@ -171,7 +171,7 @@ impl Joints {
                 *here = here.max(of(k));
             }
         }
-        let near = |j: &Joint| j.free.iter().map(|i| most[i]).fold(0.0, f64::max);
+        let near = |j: &ElasticJoint| j.free.iter().map(|i| most[i]).fold(0.0, f64::max);
         self.list.iter().map(near).collect()
     }
 }
@@ -242,7 +242,7 @@ fn joint(
     quadrature: Quadrature,
     others: &Corners,
     told: &mut Told,
-) -> Result<Joint, InputError> {
+) -> Result<ElasticJoint, InputError> {
     let (one, two) = (&assembly.blocks[face.a], &assembly.blocks[face.b]);
     let count = face.points.len().max(1) as f64;
     let at = face.points.iter().sum::<Vector3<f64>>() / count;
@@ -253,7 +253,7 @@ fn joint(
     };
     let mu = face.law.friction.mu();
     let free = [face.a, face.b].into_iter().filter(|&i| !assembly.blocks[i].support).collect();
-    let new = |kind| Joint { a: face.a, b: face.b, free, at, frame, kind };
+    let new = |kind| ElasticJoint { a: face.a, b: face.b, free, at, frame, kind };
     if one.solid.is_round() || two.solid.is_round() {
         return Ok(new(JointKind::Grain(grain([one, two], &at, mu, told)?)));
     }
@@ -277,20 +277,20 @@ fn joint(
             return Err(InputError::at(JsonPath::root().key("joints"), text)
                 .hint("cut the edge off, so that it is a face, or ask `assess`"));
         };
-        Place::Points(corners.into_iter().map(|p| (p, share)).collect())
+        Domain::Points(corners.into_iter().map(|p| (p, share)).collect())
     } else {
         match quadrature {
             Quadrature::Corners => {
                 let share = face.area / count;
-                Place::Points(corners.into_iter().map(|p| (p, share)).collect())
+                Domain::Points(corners.into_iter().map(|p| (p, share)).collect())
             }
             Quadrature::Area if face.pieces.is_empty() => {
-                Place::Triangles(Bed::triangles(&[corners]))
+                Domain::Triangles(Bed::triangles(&[corners]))
             }
             Quadrature::Area => {
                 let pieces: Vec<Vec<P2>> =
                     face.pieces.iter().map(|p| p.iter().map(flat).collect()).collect();
-                Place::Triangles(Bed::triangles(&pieces))
+                Domain::Triangles(Bed::triangles(&pieces))
             }
         }
     };
@@ -330,7 +330,7 @@ fn radius(block: &Block, at: &Vector3<f64>) -> Option<f64> {
     }
 }
 
-impl Joint {
+impl ElasticJoint {
     /// The relative displacement at given displacements of all blocks.
     pub fn motion(&self, assembly: &Assembly, displaced: &[Rate]) -> [f64; 6] {
         let of = |i: usize| {

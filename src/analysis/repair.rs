@@ -11,7 +11,7 @@
 //! ([`opening`]). Where sliding is excluded at any force there is none, and the mechanism stays as
 //! it is.
 
-use super::attempt::is_large;
+use super::ladder::is_large;
 use base::tolerance;
 use check::verdict::{
     Forces, Rate, at, certificate,

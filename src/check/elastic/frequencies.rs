@@ -6,7 +6,7 @@
 //! (Bathe & Wilson 1972). Second-order effects, the work of gravity on the motion among them, are
 //! left out.
 
-use super::{law::Friction, state::State, system::System};
+use super::{law::Friction, state::ElasticState, system::System};
 use crate::verdict::Rate;
 use cholesky::{Cholesky, Pattern};
 use nalgebra::{DMatrix, DVector, Matrix6, SymmetricEigen};
@@ -36,7 +36,7 @@ const FREE: f64 = 1e-12;
 ///
 /// Structures that do not touch are decomposed by themselves: what is rounding beside a stiff one
 /// is a frequency of a soft one.
-pub fn frequencies(system: &System, state: &State, displaced: &[Rate]) -> Vec<f64> {
+pub fn frequencies(system: &System, state: &ElasticState, displaced: &[Rate]) -> Vec<f64> {
     let tangent = system.tangent(state, displaced, 0.0, Friction::Stays);
     let [lower, upper] = system.values(&tangent, &vec![1.0; 6 * system.free.len()], 0.0);
     let values: Vec<f64> = lower.iter().zip(&upper).map(|(l, u)| 0.5 * (l + u)).collect();

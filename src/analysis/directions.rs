@@ -6,8 +6,8 @@ use super::{
     Control, Proved,
     coulomb::DryLoadFactor,
     limit::{self, LoadFactor},
-    near::Near,
     tilt::{DryTilt, Tilt, tilt_near},
+    warm_start::Near,
 };
 use base::{error::InputError, tolerance};
 use check::verdict::{

@@ -6,12 +6,12 @@
 mod cases;
 mod penalty;
 
-pub use cases::{YieldingCase, YieldingQuantity, YieldingWay, yielding_cases};
+pub use cases::{ElasticCase, ElasticQuantity, ElasticWay, elastic_cases};
 
 use super::method::simulated;
 use analysis::{Answer, Control, Question, StateOptions, ask};
 use base::error::InputError;
-use check::{verdict::Rate, yielding::Quadrature};
+use check::{elastic::Quadrature, verdict::Rate};
 use dynamics::Fidelity;
 use model::interface::{Model, prepare};
 use penalty::Penalty;
@@ -21,7 +21,7 @@ use std::time::Instant;
 /// A way to a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum YieldingMethod {
+pub enum ElasticMethod {
     /// `state`: along a live load its whole path.
     State,
     /// The same with joints at their corners.
@@ -35,7 +35,7 @@ pub enum YieldingMethod {
     Simulation,
 }
 
-impl YieldingMethod {
+impl ElasticMethod {
     /// All of them.
     pub const ALL: [Self; 5] =
         [Self::State, Self::Corners, Self::PenaltyCorners, Self::PenaltyFine, Self::Simulation];
@@ -52,8 +52,8 @@ impl YieldingMethod {
     }
 
     /// The settings of its knob that make sense for a case.
-    fn knobs(self, case: &YieldingCase) -> &'static [f64] {
-        let factor = case.quantity == YieldingQuantity::LoadFactor;
+    fn knobs(self, case: &ElasticCase) -> &'static [f64] {
+        let factor = case.quantity == ElasticQuantity::LoadFactor;
         match self {
             Self::State => &[0.0],
             Self::Simulation if factor => &[0.0],
@@ -71,13 +71,13 @@ impl YieldingMethod {
 
 /// One way to one value.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct YieldingPoint {
+pub struct ElasticPoint {
     /// The case.
     pub case: String,
     /// Whether the value is a load factor.
     pub is_factor: bool,
     /// The method.
-    pub method: YieldingMethod,
+    pub method: ElasticMethod,
     /// Its knob, where it has one.
     pub knob: f64,
     /// What came out, m, rad or a load factor.
@@ -94,20 +94,20 @@ pub struct YieldingPoint {
 ///
 /// # Errors
 /// A case cannot be resolved.
-pub fn yielding(
-    cases: &[YieldingCase],
-    mut each: impl FnMut(&YieldingPoint),
-) -> Result<Vec<YieldingPoint>, InputError> {
+pub fn elastic(
+    cases: &[ElasticCase],
+    mut each: impl FnMut(&ElasticPoint),
+) -> Result<Vec<ElasticPoint>, InputError> {
     let mut points = Vec::new();
     for case in cases {
         let model = prepare(&case.scene)?;
-        for method in YieldingMethod::ALL {
+        for method in ElasticMethod::ALL {
             for &knob in method.knobs(case) {
                 let start = Instant::now();
                 let value = value(case, &model, method, knob)?.filter(|v| v.is_finite());
-                let point = YieldingPoint {
+                let point = ElasticPoint {
                     case: case.name.clone(),
-                    is_factor: case.quantity == YieldingQuantity::LoadFactor,
+                    is_factor: case.quantity == ElasticQuantity::LoadFactor,
                     method,
                     knob,
                     value,
@@ -123,11 +123,10 @@ pub fn yielding(
     Ok(points)
 }
 
-/// How many points [`yielding`] will make.
-pub fn yielding_count(cases: &[YieldingCase]) -> usize {
-    let of = |case: &YieldingCase| {
-        YieldingMethod::ALL.iter().map(|m| m.knobs(case).len()).sum::<usize>()
-    };
+/// How many points [`elastic`] will make.
+pub fn elastic_count(cases: &[ElasticCase]) -> usize {
+    let of =
+        |case: &ElasticCase| ElasticMethod::ALL.iter().map(|m| m.knobs(case).len()).sum::<usize>();
     cases.iter().map(of).sum()
 }
 
@@ -135,17 +134,17 @@ pub fn yielding_count(cases: &[YieldingCase]) -> usize {
 const HIGH: f64 = 1.7;
 
 fn value(
-    case: &YieldingCase,
+    case: &ElasticCase,
     model: &Model,
-    method: YieldingMethod,
+    method: ElasticMethod,
     knob: f64,
 ) -> Result<Option<f64>, InputError> {
     match method {
-        YieldingMethod::State => state(case, model, Quadrature::Area),
-        YieldingMethod::Corners => state(case, model, Quadrature::Corners),
-        YieldingMethod::PenaltyCorners => penalty(case, model, None, knob),
-        YieldingMethod::PenaltyFine => penalty(case, model, Some(2), knob),
-        YieldingMethod::Simulation => {
+        ElasticMethod::State => state(case, model, Quadrature::Area),
+        ElasticMethod::Corners => state(case, model, Quadrature::Corners),
+        ElasticMethod::PenaltyCorners => penalty(case, model, None, knob),
+        ElasticMethod::PenaltyFine => penalty(case, model, Some(2), knob),
+        ElasticMethod::Simulation => {
             let [low, high] = simulated(model, Fidelity::Fine, HIGH * case.truth);
             Ok(Some(0.5 * (low + high)))
         }
@@ -153,21 +152,21 @@ fn value(
 }
 
 fn state(
-    case: &YieldingCase,
+    case: &ElasticCase,
     model: &Model,
     quadrature: Quadrature,
 ) -> Result<Option<f64>, InputError> {
-    let live = matches!(case.quantity, YieldingQuantity::Live(_));
+    let live = matches!(case.quantity, ElasticQuantity::Live(_));
     let at = if live { vec![1.0] } else { Vec::new() };
     let question = Question::State(StateOptions { quadrature, at, ..StateOptions::default() });
     let answer = ask(&question, &case.scene, model, &Control::default())?;
     let Answer::State(found) = answer else { return Ok(None) };
     Ok(match &case.quantity {
-        YieldingQuantity::LoadFactor => found.factor().and_then(|f| f.value),
-        YieldingQuantity::Dead(way) => {
+        ElasticQuantity::LoadFactor => found.factor().and_then(|f| f.value),
+        ElasticQuantity::Dead(way) => {
             found.track.as_ref().map(|t| way.of(model, &t.steps[0].displaced))
         }
-        YieldingQuantity::Live(way) => found.track.as_ref().and_then(|t| {
+        ElasticQuantity::Live(way) => found.track.as_ref().and_then(|t| {
             let there = t.steps.iter().find(|s| s.load_factor == 1.0)?;
             Some(way.of(model, &there.displaced))
         }),
@@ -181,7 +180,7 @@ const HALVINGS: usize = 16;
 
 /// `finer`: how often the triangles of joints are cut in four; at corners where nothing is said.
 fn penalty(
-    case: &YieldingCase,
+    case: &ElasticCase,
     model: &Model,
     finer: Option<usize>,
     rest: f64,
@@ -191,16 +190,16 @@ fn penalty(
         return Ok(None);
     }
     let seen = |displaced: &[Rate]| match &case.quantity {
-        YieldingQuantity::Dead(way) | YieldingQuantity::Live(way) => way.of(model, displaced),
-        YieldingQuantity::LoadFactor => f64::NAN,
+        ElasticQuantity::Dead(way) | ElasticQuantity::Live(way) => way.of(model, displaced),
+        ElasticQuantity::LoadFactor => f64::NAN,
     };
     Ok(match &case.quantity {
-        YieldingQuantity::Dead(_) => Some(seen(&springs.displaced)),
-        YieldingQuantity::Live(_) => {
+        ElasticQuantity::Dead(_) => Some(seen(&springs.displaced)),
+        ElasticQuantity::Live(_) => {
             let stays = (1..=INCREMENTS).all(|k| springs.relax(k as f64 / INCREMENTS as f64));
             stays.then(|| seen(&springs.displaced))
         }
-        YieldingQuantity::LoadFactor => {
+        ElasticQuantity::LoadFactor => {
             let (mut low, mut high) = (0.0, HIGH * case.truth);
             for _ in 0..HALVINGS {
                 let middle = 0.5 * (low + high);
@@ -219,18 +218,18 @@ mod tests {
     /// less is left unbalanced, the nearer.
     #[test]
     fn the_state_has_the_exact_values() {
-        for case in yielding_cases().unwrap() {
+        for case in elastic_cases().unwrap() {
             let model = prepare(&case.scene).unwrap();
             let off = |method, knob| {
                 let value = value(&case, &model, method, knob).unwrap();
                 value.map_or(f64::INFINITY, |v| (v / case.truth - 1.0).abs())
             };
             // What tips slides at its edge: it is followed to a thousandth below its bound.
-            let exact = if case.quantity == YieldingQuantity::LoadFactor { 1.1e-3 } else { 1e-8 };
-            let error = off(YieldingMethod::State, 0.0);
+            let exact = if case.quantity == ElasticQuantity::LoadFactor { 1.1e-3 } else { 1e-8 };
+            let error = off(ElasticMethod::State, 0.0);
             assert!(error < exact, "{}: {error}", case.name);
-            if case.quantity != YieldingQuantity::LoadFactor && case.name.starts_with("sphere") {
-                let [coarse, fine] = [1e-2, 1e-6].map(|k| off(YieldingMethod::PenaltyCorners, k));
+            if case.quantity != ElasticQuantity::LoadFactor && case.name.starts_with("sphere") {
+                let [coarse, fine] = [1e-2, 1e-6].map(|k| off(ElasticMethod::PenaltyCorners, k));
                 assert!(fine < coarse && fine < 0.3, "{}: {coarse} {fine}", case.name);
             }
         }

@@ -2,7 +2,7 @@
 
 /// Where blocks have come to.
 #[derive(Clone, Default)]
-pub struct Place {
+pub struct Dragged {
     /// How long it took; nothing was asked yet at 0.
     pub time: f64,
     /// How far each row has come.

@@ -9,14 +9,14 @@ use serde_json::{Value, json};
 
 /// Where one looks.
 #[derive(Clone, Debug, PartialEq)]
-pub enum YieldingWay {
+pub enum ElasticWay {
     /// Rotation about y, rad.
     Turn,
     /// Way of a point of the block along an axis, m.
     Along(Vector3<f64>, Vector3<f64>),
 }
 
-impl YieldingWay {
+impl ElasticWay {
     /// How far the last block has gone.
     pub fn of(&self, model: &Model, displaced: &[Rate]) -> f64 {
         let Some((block, q)) = model.assembly.blocks.last().zip(displaced.last()) else {
@@ -31,24 +31,24 @@ impl YieldingWay {
 
 /// What is known.
 #[derive(Clone, Debug, PartialEq)]
-pub enum YieldingQuantity {
+pub enum ElasticQuantity {
     /// A way under the dead load.
-    Dead(YieldingWay),
+    Dead(ElasticWay),
     /// A way at the load factor 1.
-    Live(YieldingWay),
+    Live(ElasticWay),
     /// The dry load factor.
     LoadFactor,
 }
 
 /// A scene with a value that is known.
 #[derive(Clone, Debug, PartialEq)]
-pub struct YieldingCase {
+pub struct ElasticCase {
     /// Its name.
     pub name: String,
     /// The scene; what moves is its last block.
     pub scene: Scene,
     /// What is known.
-    pub quantity: YieldingQuantity,
+    pub quantity: ElasticQuantity,
     /// The value.
     pub truth: f64,
     /// Whether its joints have an area.
@@ -106,10 +106,10 @@ fn approach(force: f64, modulus: f64, radius: f64) -> f64 {
 ///
 /// # Errors
 /// None that a test would not find.
-pub fn yielding_cases() -> Result<Vec<YieldingCase>, InputError> {
+pub fn elastic_cases() -> Result<Vec<ElasticCase>, InputError> {
     let mut list = Vec::new();
     let mut add = |name: String, scene, quantity, truth, has_area| {
-        list.push(YieldingCase { name, scene, quantity, truth, has_area });
+        list.push(ElasticCase { name, scene, quantity, truth, has_area });
     };
     for share in [0.1, 0.25, 0.4, 0.45] {
         let loads = json!({ "dead": [{ "block": "block", "moment": [0, share * N, 0] }] });
@@ -121,7 +121,7 @@ pub fn yielding_cases() -> Result<Vec<YieldingCase>, InputError> {
         };
         let name = format!("bed, M = {share} N b");
         let scene = block(0.7, loads, json!([]))?;
-        add(name, scene, YieldingQuantity::Dead(YieldingWay::Turn), turn, true);
+        add(name, scene, ElasticQuantity::Dead(ElasticWay::Turn), turn, true);
     }
     let floor = json!({ "id": "floor", "support": true, "shape": { "box": { "size": [1, 1, 1] } }, "at": [0, 0, -0.5] });
     let weight = 2500.0 * 4.0 / 3.0 * std::f64::consts::PI * RADIUS.powi(3) * 9.81;
@@ -130,18 +130,18 @@ pub fn yielding_cases() -> Result<Vec<YieldingCase>, InputError> {
     // The floor is rigid.
     let modulus = YOUNG / (1.0 - POISSON * POISSON);
     let sinks = approach(force, modulus, RADIUS);
-    let down = YieldingWay::Along(Vector3::zeros(), -Vector3::z());
+    let down = ElasticWay::Along(Vector3::zeros(), -Vector3::z());
     let pressed = sphere(0.3, std::slice::from_ref(&floor), RADIUS, json!({ "dead": [press] }))?;
-    add("sphere, Hertz".into(), pressed, YieldingQuantity::Dead(down), sinks, false);
+    add("sphere, Hertz".into(), pressed, ElasticQuantity::Dead(down), sinks, false);
     let shear = YOUNG / (2.0 * (1.0 + POISSON)) / (2.0 - POISSON);
     for share in [0.5, 0.9] {
         let (most, contact) = (0.3 * force, (RADIUS * sinks).sqrt());
         let loads = json!({ "dead": [press], "live": [{ "block": "ball", "force": [share * most, 0, 0], "at": [0, 0, 0] }] });
         let way = 3.0 * most / (16.0 * contact * shear) * (1.0 - (1.0 - share).powf(2.0 / 3.0));
-        let across = YieldingWay::Along(Vector3::zeros(), Vector3::x());
+        let across = ElasticWay::Along(Vector3::zeros(), Vector3::x());
         let scene = sphere(0.3, std::slice::from_ref(&floor), RADIUS, loads)?;
         let name = format!("sphere, Mindlin, Q = {share} μ P");
-        add(name, scene, YieldingQuantity::Live(across), way, false);
+        add(name, scene, ElasticQuantity::Live(across), way, false);
     }
     let cosine = 0.75_f64.sqrt();
     let low = |id: &str, x: f64| json!({ "id": id, "support": true, "material": "glass", "shape": { "sphere": { "radius": RADIUS } }, "at": [x, 0, 0] });
@@ -152,18 +152,18 @@ pub fn yielding_cases() -> Result<Vec<YieldingCase>, InputError> {
         json!({}),
     )?;
     let sinks = approach(0.5 * weight / cosine, 0.5 * modulus, 0.5 * RADIUS) / cosine;
-    let way = YieldingWay::Along(Vector3::new(0.0, 0.0, 2.0 * RADIUS * cosine), -Vector3::z());
-    add("sphere on two, no friction".into(), pile, YieldingQuantity::Dead(way), sinks, false);
+    let way = ElasticWay::Along(Vector3::new(0.0, 0.0, 2.0 * RADIUS * cosine), -Vector3::z());
+    add("sphere on two, no friction".into(), pile, ElasticQuantity::Dead(way), sinks, false);
     let push = |height: f64, by: f64| json!({ "live": [{ "block": "block", "force": [by * N, 0, 0], "at": [0, 0, height] }] });
     let spring = json!([{ "id": "spring", "tie": { "between": [{ "block": "block", "at": [-0.5, 0, 0] }, { "ground": [-2, 0, 0] }], "strength": "infinite", "stiffness": SPRING } }]);
-    let way = YieldingWay::Along(Vector3::zeros(), Vector3::x());
+    let way = ElasticWay::Along(Vector3::zeros(), Vector3::x());
     let scene = block(0.5, push(0.0, 0.8), spring)?;
     let slid = 0.3 * N / SPRING;
-    add("block against a spring".into(), scene, YieldingQuantity::Live(way), slid, true);
+    add("block against a spring".into(), scene, ElasticQuantity::Live(way), slid, true);
     for (name, friction, truth) in [("block that tips", 0.7, 0.5), ("block that slides", 0.3, 0.3)]
     {
         let scene = block(friction, push(1.0, 1.0), json!([]))?;
-        add(name.into(), scene, YieldingQuantity::LoadFactor, truth, true);
+        add(name.into(), scene, ElasticQuantity::LoadFactor, truth, true);
     }
     Ok(list)
 }
