@@ -80,7 +80,7 @@ pub fn run(args: &Generate) -> anyhow::Result<Exit> {
     if args.expand {
         (scene.blocks, scene.templates) = (blocks, Vec::new());
     }
-    sink.write(&json::pretty(&scene)?)?;
+    sink.write(&json::text(&scene.to_value()?))?;
     Ok(Exit::Yes)
 }
 

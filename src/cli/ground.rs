@@ -89,7 +89,7 @@ pub fn rock(
     let Answer::Rock(rocking) = &answer else { bail!("the answer is not one to its question") };
     let Rocking { built, history, scan: found, .. } = &**rocking;
     if let Some(save) = session.save() {
-        save.write(&json::pretty(&session.result(&question, &answer)?)?)?;
+        save.write(&json::text(&session.result(&question, &answer)?.to_value()?))?;
     }
     let blocks = &session.model.assembly.blocks;
     let ids: Vec<String> = blocks.iter().map(|b| b.id.clone()).collect();

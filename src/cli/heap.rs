@@ -124,7 +124,7 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
         };
         // Written at once: what follows may take long.
         if let Some(output) = &outputs.scene {
-            output.write(&json::pretty(&heap.scene)?)?;
+            output.write(&json::text(&heap.scene.to_value()?))?;
         }
         if let Some(output) = &outputs.list {
             output.write(&grains::written(&heap.scene, format)?)?;

@@ -291,7 +291,7 @@ impl<'a> Session<'a> {
             terminal::say(&format!("warning: {words}"));
         }
         if let Some(save) = &self.save {
-            save.write(&json::pretty(&file)?)?;
+            save.write(&json::text(&file.to_value()?))?;
         }
         if self.is_filmed() {
             let mut charts = Vec::new();
@@ -339,7 +339,7 @@ impl<'a> Session<'a> {
             self.pictures.write_still(still)?;
         }
         if self.common.json {
-            terminal::print(&json::pretty(&file)?)?;
+            terminal::print(&json::text(&file.to_value()?))?;
         } else if !self.is_printed() {
             let options = TextOptions { verbose: self.common.verbose, brief: self.common.quiet };
             terminal.page(&text::render(&file, asked, options, layout))?;

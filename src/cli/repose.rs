@@ -92,7 +92,7 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
         }
     }
     if let Some(save) = session.save() {
-        save.write(&json::pretty(&proof)?)?;
+        save.write(&json::text(&proof.to_value()?))?;
     }
     let layout = terminal.layout(&args.common.scene);
     // The round with the answer: grains that fell earlier are gone.

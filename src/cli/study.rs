@@ -69,7 +69,7 @@ pub fn run(args: &Study, terminal: &Terminal) -> anyhow::Result<Exit> {
         } else {
             cross::scene(args.seed, index)?.0
         };
-        terminal::print(&json::pretty(&scene)?)?;
+        terminal::print(&json::text(&scene.to_value()?))?;
         return Ok(Exit::Yes);
     }
     if let Some(count) = args.cross {
@@ -83,7 +83,7 @@ pub fn run(args: &Study, terminal: &Terminal) -> anyhow::Result<Exit> {
         bar.finish_and_clear();
         if let Some(folder) = &args.dump {
             for (name, scene) in cross::scenes(args.seed, &list) {
-                Sink::open(Some(&folder.join(name)))?.write(&json::pretty(&scene)?)?;
+                Sink::open(Some(&folder.join(name)))?.write(&json::text(&scene.to_value()?))?;
             }
         }
         if let Some(csv) = csv {

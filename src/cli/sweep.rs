@@ -43,7 +43,7 @@ pub fn run(args: &Sweep, terminal: &Terminal) -> anyhow::Result<Exit> {
     let sweep = sweep::open_bytes(name, bytes, folder, args.outside.reach())?;
     terminal::notes(&sweep.findings);
     // The scene as the file has it, where that can be resolved before a row gives it its numbers.
-    if let Some(model) = serde_json::from_value::<Scene>(sweep.scene.clone())
+    if let Some(model) = Scene::from_value(sweep.scene.clone())
         .ok()
         .and_then(|scene| prepare(&scene).ok())
     {

@@ -14,10 +14,15 @@ const LINE: usize = 120;
 /// # Errors
 /// The value has no JSON form (a map with keys that are not text).
 pub fn pretty(value: &impl Serialize) -> Result<String, serde_json::Error> {
+    Ok(text(&serde_json::to_value(value)?))
+}
+
+/// The same of a JSON value.
+pub fn text(value: &Value) -> String {
     let mut text = String::new();
-    write(&serde_json::to_value(value)?, 0, &mut text);
+    write(value, 0, &mut text);
     text.push('\n');
-    Ok(plain::json(text))
+    plain::json(text)
 }
 
 fn write(value: &Value, indent: usize, out: &mut String) {

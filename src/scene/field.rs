@@ -5,9 +5,26 @@ use base::error::{InputError, JsonPath};
 use serde_json::{Map, Number, Value, json};
 
 impl Scene {
+    /// The scene as a JSON value. Written here once, so that no other crate writes it again for
+    /// itself.
+    ///
+    /// # Errors
+    /// None that a scene can bring about.
+    pub fn to_value(&self) -> Result<Value, serde_json::Error> {
+        serde_json::to_value(self)
+    }
+
+    /// The scene that a JSON value is.
+    ///
+    /// # Errors
+    /// It is none: the key that is not known, or the value that does not fit.
+    pub fn from_value(value: Value) -> Result<Self, serde_json::Error> {
+        serde_json::from_value(value)
+    }
+
     /// The number at a pointer; `None` where there is none.
     pub fn field(&self, pointer: &str) -> Option<f64> {
-        serde_json::to_value(self).ok()?.pointer(pointer)?.as_f64()
+        self.to_value().ok()?.pointer(pointer)?.as_f64()
     }
 
     /// The same scene with another number at a pointer. What stands there must be a number (or the
@@ -20,7 +37,8 @@ impl Scene {
         let number = number(value).ok_or_else(|| {
             InputError::at(JsonPath::root(), format!("{pointer}: not a finite number: {value}"))
         })?;
-        let mut document = serde_json::to_value(self)
+        let mut document = self
+            .to_value()
             .map_err(|e| InputError::at(JsonPath::root(), e.to_string()))?;
         *place(&mut document, pointer)? = Value::Number(number);
         let (scene, _) = read_str("", document.to_string()).map_err(|e| InputError {

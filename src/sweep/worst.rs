@@ -231,7 +231,7 @@ fn numbers(scene: &Scene, range: &Between) -> Result<Vec<Ends>, InputError> {
 }
 
 fn as_json(scene: &Scene) -> Result<serde_json::Value, InputError> {
-    serde_json::to_value(scene).map_err(|e| InputError::at(JsonPath::root(), e.to_string()))
+    scene.to_value().map_err(|e| InputError::at(JsonPath::root(), e.to_string()))
 }
 
 impl Ends {
@@ -259,7 +259,7 @@ fn at_corner(base: &Scene, ends: &[Ends], corner: usize) -> Result<Scene, InputE
             What::Pointer(pointer) => {
                 let mut json = as_json(&scene)?;
                 pointer.set(&mut json, &value.into());
-                scene = serde_json::from_value(json).map_err(|e| {
+                scene = Scene::from_value(json).map_err(|e| {
                     InputError::at(
                         JsonPath::root(),
                         format!("--worst: {} = {value} is no scene: {e}", end.label),

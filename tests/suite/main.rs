@@ -3,6 +3,18 @@
 // A test ends where something is not as it should be, in its helpers too.
 #![allow(clippy::expect_used, clippy::panic, clippy::unreachable, clippy::unwrap_used)]
 
+/// Says that a test could not be run here, and why. `.ci/run` names a file, and prints at its end how
+/// many there were.
+fn skipped(why: &str) {
+    use std::io::Write;
+    let test = std::thread::current().name().unwrap_or_default().to_string();
+    eprintln!("skipped: {test}: {why}");
+    if let Some(path) = std::env::var_os("VOUSSOIR_SKIPPED") {
+        let mut file = std::fs::OpenOptions::new().append(true).create(true).open(path).unwrap();
+        writeln!(file, "{test}: {why}").unwrap();
+    }
+}
+
 mod ask;
 
 mod agreement;

@@ -119,6 +119,15 @@ pub struct ResultFile {
 }
 
 impl ResultFile {
+    /// The result as a JSON value. Written here once, so that no other crate writes it again for
+    /// itself.
+    ///
+    /// # Errors
+    /// None that a result can bring about.
+    pub fn to_value(&self) -> Result<serde_json::Value, serde_json::Error> {
+        serde_json::to_value(self)
+    }
+
     /// A result that holds an answer with its evidence, and nothing else yet.
     pub fn new(
         question: QuestionKind,

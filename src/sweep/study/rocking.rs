@@ -190,7 +190,7 @@ fn scene([b, h]: [f64; 2]) -> Result<Scene, InputError> {
             { "id": "block", "density": 1, "shape": prism(block) }
         ]
     });
-    serde_json::from_value(value).map_err(|e| InputError::at(JsonPath::root(), e.to_string()))
+    Scene::from_value(value).map_err(|e| InputError::at(JsonPath::root(), e.to_string()))
 }
 
 /// Runs every method over its knob on the blocks; `each` hears of every point as it is done.

@@ -24,7 +24,7 @@ impl Desk {
     fn new(more: &[&str]) -> Option<Self> {
         let browser = Browser::start(more);
         if browser.is_none() {
-            println!("skipped: chromium and chromedriver are not on the path");
+            crate::skipped("chromium and chromedriver are not on the path");
         }
         Some(Self { browser: browser?, folder: tempfile::tempdir().unwrap() })
     }

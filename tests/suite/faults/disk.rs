@@ -25,7 +25,7 @@ impl Small {
             .output()
             .is_ok_and(|o| o.status.success());
         if !mounted {
-            println!("skipped: no right to mount a small file system here");
+            crate::skipped("no right to mount a small file system here");
             return None;
         }
         Some(Self { place, _folder: folder })
@@ -158,7 +158,7 @@ fn what_cannot_be_written_is_said_before_the_work() {
 #[test]
 fn a_full_device_is_an_error_and_not_a_silent_success() {
     if !Path::new("/dev/full").exists() {
-        println!("skipped: no /dev/full here");
+        crate::skipped("no /dev/full here");
         return;
     }
     let desk = desk(2, 2, 4);

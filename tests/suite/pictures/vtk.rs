@@ -244,7 +244,7 @@ fn vtk_reads_the_files() {
         Command::new("python3").args(args).output().ok().filter(|o| o.status.success())
     };
     if python(&["-c", "import vtk"]).is_none() {
-        eprintln!("skipped: python3 has no module vtk");
+        crate::skipped("python3 has no module vtk");
         return;
     }
     let folder = tempfile::tempdir().unwrap();

@@ -68,7 +68,7 @@ const POISSON: f64 = 0.22;
 const RADIUS: f64 = 0.01;
 
 fn scene(value: Value) -> Result<Scene, InputError> {
-    serde_json::from_value(value).map_err(|e| InputError::at(JsonPath::root(), e.to_string()))
+    Scene::from_value(value).map_err(|e| InputError::at(JsonPath::root(), e.to_string()))
 }
 
 /// A block on a floor.

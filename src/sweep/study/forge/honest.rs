@@ -72,7 +72,7 @@ pub(super) fn results(scene: &Scene, turn: usize) -> Result<Vec<Honest>, InputEr
         if !verify_model(&file, scene, &model, &Solvers).proved() {
             continue;
         }
-        let Ok(file) = serde_json::to_value(&file) else { continue };
+        let Ok(file) = file.to_value() else { continue };
         let ends = match question {
             Question::Critical(o) => {
                 o.between.into_iter().filter_map(|v| end(scene, &o.vary, v, &control())).collect()

@@ -22,7 +22,7 @@ use crate::{
 };
 use analysis::recompute::Solvers;
 use base::error::RowsError;
-use check::proof::{ResultFile, verify::verify_model};
+use check::proof::{read::read_str, verify::verify_model};
 use honest::Honest;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
@@ -199,7 +199,7 @@ fn honest(seed: u64, index: usize) -> Result<Vec<Honest>, base::error::InputErro
 
 /// Whether a file is called proved. One that cannot be read is not.
 fn is_proved(honest: &Honest, file: &Value) -> bool {
-    let Ok(file) = serde_json::from_value::<ResultFile>(file.clone()) else { return false };
+    let Ok(file) = read_str("forged", &file.to_string()) else { return false };
     verify_model(&file, &honest.scene, &honest.model, &Solvers).proved()
 }
 

@@ -219,7 +219,7 @@ fn what_slurm_cannot_do_is_said_before_anything_is_submitted() {
     )
     .unwrap();
     if voussoir::sweep::slurm::is_shared(&mount, &["far".to_string()], "here") {
-        eprintln!("skipped in part: {} is a shared file system", mount.kind);
+        crate::skipped(&format!("in part: {} is a shared file system", mount.kind));
     } else {
         fake.refused(&slurm(&[]), &[("FAKE_HOST", "far")], "which nodes such as far do not see");
         fake.expect(0, &slurm(&["--shared", "-q"]), &[("FAKE_HOST", "far")]);

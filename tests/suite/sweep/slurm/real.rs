@@ -166,7 +166,7 @@ fn survives(rows: usize, tasks: usize) -> Result<(), String> {
 #[test]
 fn a_node_lost_a_task_cancelled_and_the_terminal_gone_on_a_real_slurm() {
     if let Err(why) = survives(1_500, 8) {
-        eprintln!("skipped: {why}");
+        crate::skipped(&why);
     }
 }
 
@@ -175,6 +175,6 @@ fn a_node_lost_a_task_cancelled_and_the_terminal_gone_on_a_real_slurm() {
 #[ignore = "takes minutes"]
 fn ten_thousand_rows_on_a_real_slurm() {
     if let Err(why) = survives(10_000, 8) {
-        eprintln!("skipped: {why}");
+        crate::skipped(&why);
     }
 }
