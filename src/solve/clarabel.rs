@@ -57,6 +57,9 @@ impl Session {
             equilibrate_enable: equilibrate,
             verbose: false,
             max_threads: 1,
+            // By the fill of the factor: scalar where it is sparse (walls pushed in their plane,
+            // arches), in dense blocks where it is not (heaps of grains: 4,495 spheres in 36 s
+            // instead of more than 120 s).
             direct_solve_method: "auto".into(),
             presolve_enable: false,
             ..DefaultSettings::default()

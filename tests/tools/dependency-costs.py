@@ -3,7 +3,7 @@
 
 usage: dependency-costs.py target/cargo-timings/cargo-timing.html
 
-For each: seconds of its own units, and with all that nothing else asks for. Seconds are those during
+For each: seconds of its own units, and with all that would not be there without it. Seconds are those during
 which a unit was being compiled, two of them at a time on two cores.
 """
 
@@ -33,7 +33,7 @@ def reached(without):
     while waiting:
         here = waiting.pop()
         for there in needs[here]:
-            if there not in seen and not (here in ours and there == without):
+            if there not in seen and there != without:
                 seen.add(there)
                 waiting.append(there)
     return seen
@@ -50,7 +50,7 @@ for d in direct:
     users = sorted(package[o][0].removeprefix("voussoir-") for o in ours if d in needs[o])
     alone = total(everything - reached(d))
     rows.append((alone, seconds.get(package[d], 0), package[d][0], ", ".join(users)))
-print("| dependency | own, s | with what it alone needs, s | used by |\n|---|---|---|---|")
+print("| dependency | own, s | with what comes with it, s | used by |\n|---|---|---|---|")
 for alone, own, name, users in sorted(rows, reverse=True):
     print(f"| {name} | {own:.1f} | {alone:.1f} | {users} |")
 print(f"\nall dependencies {total(everything - ours):.0f} s, the house {total(ours):.0f} s")
