@@ -46,7 +46,7 @@ pub fn scene(bytes: &[u8], and_prepare: bool) -> Corpus {
             assert!(again.0 == scene, "the scene changed on the way");
             if and_prepare && is_small(&scene) {
                 match prepare(&scene) {
-                    Err(e) => said(&e.located(&source)),
+                    Err(e) => said(&source.located(e)),
                     Ok(model) => sound(&model),
                 }
             }

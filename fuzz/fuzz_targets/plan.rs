@@ -20,7 +20,7 @@ fuzz_target!(|bytes: &[u8]| {
     match read_plan("fuzzed", bytes.to_vec()) {
         Err(e) => voussoir_fuzz::said(&e),
         Ok((plan, source)) => match Sweep::new(plan, SCENE.clone()) {
-            Err(e) => voussoir_fuzz::said(&e.located(&source)),
+            Err(e) => voussoir_fuzz::said(&source.located(e)),
             Ok(sweep) => {
                 for row in [0, sweep.rows() / 2, sweep.rows().saturating_sub(1)] {
                     let parameters = sweep.parameters(row);

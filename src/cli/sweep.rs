@@ -43,9 +43,8 @@ pub fn run(args: &Sweep, terminal: &Terminal) -> anyhow::Result<Exit> {
     let sweep = sweep::open_bytes(name, bytes, folder, args.outside.reach())?;
     terminal::notes(&sweep.findings);
     // The scene as the file has it, where that can be resolved before a row gives it its numbers.
-    if let Some(model) = Scene::from_value(sweep.scene.clone())
-        .ok()
-        .and_then(|scene| prepare(&scene).ok())
+    if let Some(model) =
+        Scene::from_value(sweep.scene.clone()).ok().and_then(|scene| prepare(&scene).ok())
     {
         terminal::warnings(model.findings());
     }

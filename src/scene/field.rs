@@ -37,9 +37,8 @@ impl Scene {
         let number = number(value).ok_or_else(|| {
             InputError::at(JsonPath::root(), format!("{pointer}: not a finite number: {value}"))
         })?;
-        let mut document = self
-            .to_value()
-            .map_err(|e| InputError::at(JsonPath::root(), e.to_string()))?;
+        let mut document =
+            self.to_value().map_err(|e| InputError::at(JsonPath::root(), e.to_string()))?;
         *place(&mut document, pointer)? = Value::Number(number);
         let (scene, _) = read_str("", document.to_string()).map_err(|e| InputError {
             file: None,
