@@ -13,6 +13,8 @@ pub mod judge;
 pub mod seen;
 mod surface;
 
+pub use surface::Slope;
+
 use super::{
     Control, Outcome, Tilt,
     stability::{held, without},
@@ -30,35 +32,22 @@ use scene::{
     BlockSpec, Protocol, ProtocolKind, Rotation, Scene,
     generate::{Deposit, deposit, filled},
 };
-use seen::{Recorder, Seen};
+use seen::{Recorder, SHEARED, Seen};
 use serde::{Deserialize, Serialize};
 use std::{collections::BTreeMap, ops::ControlFlow, time::Instant};
 
 /// A stage may take so many √(d/g) to come to rest.
 const HORIZON: f64 = 400.0;
-/// A drum turns by so much before it is measured, and by so much while it is; degrees.
-const DRUM_STARTS: f64 = 90.0;
+
+/// A drum turns by so much while it is measured, degrees.
 const DRUM_TURNS: f64 = 270.0;
-/// A shear box is pushed by this share of its length. More: less than four fifths of the halves lie
-/// over each other. Less: the residual resistance is not reached.
-const SHEARED: f64 = 0.2;
+
 /// √(d/g) between two layers that are poured from 3 d, in which a grain falls so far; from elsewhere
 /// by the root of the height. Less: each would begin above one that still falls, higher and higher.
 const POUR: f64 = 2.5;
 /// Rounds in which grains that nothing balances are left out. More: a heap that really falls is
 /// taken apart.
 const UNBALANCED: usize = 4;
-
-/// A straight line through the free surface.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-pub struct Slope {
-    /// Degrees; positive where the surface falls towards the edge.
-    pub angle_deg: f64,
-    /// Coefficient of determination of the fit.
-    pub r_squared: f64,
-    /// Cells on it.
-    pub cells: usize,
-}
 
 /// The free surface of a heap as its slope was read from it.
 #[derive(Clone, Debug, PartialEq)]

@@ -8,10 +8,12 @@ mod dissection;
 mod fronts;
 #[cfg(feature = "threads")]
 pub mod parallel;
+mod pattern;
 mod substitution;
 mod tree;
 
 pub use dissection::dissected;
+pub use pattern::Pattern;
 pub use tree::{Front, Tree};
 
 use faer::{
@@ -32,22 +34,6 @@ use faer::{
 };
 use fronts::Room;
 use substitution::Substitution;
-
-/// The pattern of the lower triangle of a symmetric matrix, column by column.
-#[derive(Clone, Debug)]
-pub struct Pattern {
-    /// Where each column starts in `rows`, and where the last one ends.
-    pub starts: Vec<usize>,
-    /// Rows of the entries, ascending in each column.
-    pub rows: Vec<usize>,
-}
-
-impl Pattern {
-    /// Rows (and columns) of the matrix.
-    pub fn size(&self) -> usize {
-        self.starts.len().saturating_sub(1)
-    }
-}
 
 /// Rows from which nested dissection of symmetric matrices is tried beside approximate minimum degree.
 /// Fewer: time for what is factored in less. More: heaps in space take twice as long.

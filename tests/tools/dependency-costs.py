@@ -25,7 +25,7 @@ needs = {
     node["id"]: [d["pkg"] for d in node["deps"] if any(k["kind"] != "dev" for k in d["dep_kinds"])]
     for node in data["resolve"]["nodes"]
 }
-ours = {p for p in data["workspace_members"] if package[p][0] != "voussoir-python"}
+ours = {p for p in data["workspace_members"] if package[p][0] not in ("voussoir-python", "features")}
 
 
 def reached(without):

@@ -13,6 +13,13 @@ use scene::{Protocol, ProtocolKind, generate::bed_split};
 use serde::{Deserialize, Serialize};
 use std::{collections::BTreeMap, f64::consts::PI};
 
+/// A drum turns by so much before it is measured, degrees.
+const DRUM_STARTS: f64 = 90.0;
+
+/// A shear box is pushed by this share of its length. More: less than four fifths of the halves lie
+/// over each other. Less: the residual resistance is not reached.
+pub(super) const SHEARED: f64 = 0.2;
+
 /// Coefficient of Beverloo's correlation, and diameters by which the orifice is smaller for grains.
 const BEVERLOO: [f64; 2] = [0.58, 1.4];
 /// The discharge is steady between these shares of what was filled in. Less: grains still set off.
@@ -170,7 +177,7 @@ impl<'a> Recorder<'a> {
         let d = self.protocol.diameter;
         match self.protocol.kind {
             ProtocolKind::Drum => {
-                if moment.turned.to_degrees() < super::DRUM_STARTS {
+                if moment.turned.to_degrees() < DRUM_STARTS {
                     return;
                 }
                 if let Some([slope, centre]) = self.surface(moment) {
@@ -316,7 +323,7 @@ impl<'a> Recorder<'a> {
                 })
             }
             ProtocolKind::Shear => {
-                let way = super::SHEARED * p.size()[0] * d;
+                let way = SHEARED * p.size()[0] * d;
                 let mut steps: BTreeMap<usize, Vec<&[f64; 3]>> = BTreeMap::new();
                 for row in &self.rows {
                     let step = ((row[0] / way * STEPS as f64) as usize).min(STEPS - 1);

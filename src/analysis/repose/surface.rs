@@ -4,11 +4,22 @@
 //! count as gravity sees them: against the bed such a surface is nearly level, and a line through
 //! it would explain little of its roughness.
 
-use super::Slope;
 use model::assembly;
 use nalgebra::Vector3;
 use scene::{Protocol, ProtocolKind};
+use serde::{Deserialize, Serialize};
 use std::{collections::BTreeMap, f64::consts::TAU};
+
+/// A straight line through the free surface.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+pub struct Slope {
+    /// Degrees; positive where the surface falls towards the edge.
+    pub angle_deg: f64,
+    /// Coefficient of determination of the fit.
+    pub r_squared: f64,
+    /// Cells on it.
+    pub cells: usize,
+}
 
 /// Length of a cell along the slope, d. Shorter: cells whose highest grain is one of the layer
 /// below. Longer: 2,000 grains make six cells, through which any line fits.

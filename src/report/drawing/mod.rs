@@ -19,10 +19,12 @@ mod order;
 mod pressure;
 mod projection;
 mod sheet;
+mod sizes;
 mod slope;
 
 pub use aspect::Aspect;
 pub(super) use choice::sized;
+use sizes::{LINE, MANY, MARGIN, WIDTH};
 
 use super::view::View;
 use base::plain::markup;
@@ -32,16 +34,9 @@ use nalgebra::Vector3;
 use projection::Projection;
 use sheet::Sheet;
 
-/// Width of the drawing, in user units.
-const WIDTH: f64 = 800.0;
-/// Between panels, and around them.
-const MARGIN: f64 = 20.0;
 /// Greatest height of a panel.
 const TALL: f64 = 900.0;
-/// Height of a line of text with its gap.
-const LINE: f64 = 24.0;
-/// More signs of a kind than this are drawn smaller.
-const MANY: usize = 24;
+
 /// Panels of structures flatter than this stand below each other.
 const FLAT: f64 = 0.6;
 

@@ -11,8 +11,11 @@ mod loads;
 mod moved;
 mod pieces;
 mod proof;
+mod section;
 
 pub use date::date;
+pub use section::{Part, Section};
+use section::{listed, percent, quantity};
 
 use super::view::View;
 use crate::drawing::{self, Aspect};
@@ -28,33 +31,6 @@ pub struct Record {
     pub drawing: String,
     /// The rest.
     pub sections: Vec<Section>,
-}
-
-/// A heading with what stands under it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Section {
-    /// Its heading.
-    pub title: String,
-    /// What it says.
-    pub parts: Vec<Part>,
-}
-
-/// A piece of a section.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Part {
-    /// A paragraph.
-    Text(String),
-    /// Names with their values.
-    Facts(Vec<[String; 2]>),
-    /// A table; of a column of numbers the flag is false.
-    Table {
-        /// Names of the columns, and whether they hold words.
-        columns: Vec<(String, bool)>,
-        /// Rows.
-        rows: Vec<Vec<String>>,
-        /// What the columns mean.
-        note: String,
-    },
 }
 
 /// Where a record comes from, as far as the result does not say it.
@@ -106,58 +82,5 @@ impl Origin {
         .filter(|(_, text)| !text.is_empty())
         .map(|(name, text)| [name.into(), text.clone()])
         .collect()
-    }
-}
-
-impl Section {
-    fn new(title: &str, parts: Vec<Part>) -> Self {
-        Self { title: title.into(), parts }
-    }
-}
-
-impl Part {
-    /// A table; a column whose name begins with `#` holds numbers.
-    fn table(columns: &[&str], rows: Vec<Vec<String>>, note: &str) -> Self {
-        let column = |c: &&str| match c.strip_prefix('#') {
-            Some(name) => (name.into(), false),
-            None => (c.to_string(), true),
-        };
-        Self::Table { columns: columns.iter().map(column).collect(), rows, note: note.into() }
-    }
-}
-
-/// Rows of a list in full; of longer ones the first, and a row that says how many are not shown.
-fn listed(rows: Vec<Vec<String>>, most: usize) -> Vec<Vec<String>> {
-    let count = rows.len();
-    if count <= most + 1 {
-        return rows;
-    }
-    let mut list: Vec<Vec<String>> = rows.into_iter().take(most).collect();
-    list.push(vec![format!("… and {} more", count - most)]);
-    list
-}
-
-/// A number with its unit and a prefix that leaves it readable: `12.3 kN`.
-fn quantity(value: f64, unit: &str) -> String {
-    let size = value.abs();
-    let (by, prefix) = match size {
-        s if s.is_infinite() => return "no limit".into(),
-        s if s >= 1e12 => (1.0, ""),
-        s if s >= 1e9 => (1e9, "G"),
-        s if s >= 1e6 => (1e6, "M"),
-        s if s >= 1e3 => (1e3, "k"),
-        _ => (1.0, ""),
-    };
-    format!("{} {prefix}{unit}", base::number::short(value / by))
-}
-
-/// A share in per cent, with as many digits as it takes to tell it from all.
-fn percent(share: f64) -> String {
-    if share.is_nan() {
-        "–".into()
-    } else if share.is_infinite() {
-        "none left".into()
-    } else {
-        format!("{:.1} %", 100.0 * share)
     }
 }

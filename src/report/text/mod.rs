@@ -9,6 +9,7 @@ mod kinematic;
 mod left_out;
 mod mechanism;
 mod moving;
+mod options;
 mod packing;
 mod page;
 mod path;
@@ -24,6 +25,8 @@ mod verdict;
 pub use checked::{inspection, verification};
 pub use heaps::heaps;
 pub use left_out::left_out;
+pub use options::TextOptions;
+use options::{SHOWN, cut};
 pub use packing::packing;
 pub use page::{Layout, Page, Role, Span};
 pub use template::template;
@@ -37,15 +40,6 @@ use check::proof::{
 use check::verdict::Verdict;
 use solve::Engine;
 
-/// How much is said.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct TextOptions {
-    /// Lists in full, and every attempt at a program.
-    pub verbose: bool,
-    /// The first line only.
-    pub brief: bool,
-}
-
 /// How a question was put, for the commands that may come next.
 #[derive(Clone, Copy, Debug)]
 pub struct Asked<'a> {
@@ -55,8 +49,6 @@ pub struct Asked<'a> {
     pub options: &'a str,
 }
 
-/// A list shows this many items unless everything is asked for.
-const SHOWN: usize = 6;
 /// So many findings are shown, which take several lines each.
 const NOTES: usize = 3;
 
@@ -117,17 +109,6 @@ pub fn render(file: &ResultFile, asked: Asked, options: TextOptions, layout: Lay
 /// How many members there are beside the contacts.
 fn with_members(members: usize) -> String {
     if members > 0 { format!(", {}", count(members, "member")) } else { String::new() }
-}
-
-/// The first items of a list, and how many there are more.
-fn cut(items: &[String], most: usize, options: TextOptions) -> Vec<String> {
-    // "and 1 more" takes the line that the item itself would.
-    let shown = if options.verbose || items.len() <= most + 1 { items.len() } else { most };
-    let mut list = items[..shown].to_vec();
-    if shown < items.len() {
-        list.push(format!("… and {} more (--verbose for all)", items.len() - shown));
-    }
-    list
 }
 
 fn time(file: &ResultFile) -> String {

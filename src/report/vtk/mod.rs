@@ -19,6 +19,7 @@
 mod ball;
 pub mod grains;
 mod mesh;
+mod part;
 mod xml;
 
 pub(super) use ball::ball;
@@ -31,28 +32,8 @@ use base::plain::markup;
 use dynamics::Frame;
 use mesh::Mesh;
 use nalgebra::Vector3;
+pub use part::VtkPart;
 use xml::Xml;
-
-/// What a cell is: the numbers of the array `part`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum VtkPart {
-    /// A face of a free block.
-    Block = 0,
-    /// A face of a support.
-    Support = 1,
-    /// A joint.
-    Joint = 2,
-    /// A contact point, with the force on the second block.
-    Force = 3,
-    /// A piece of a line of thrust.
-    Thrust = 4,
-    /// The place of a dead load beside the weight.
-    Load = 5,
-    /// The place of a live load.
-    LiveLoad = 6,
-    /// A tie, strut or other member.
-    Member = 7,
-}
 
 /// The file of an answer.
 pub fn vtp(view: &View) -> String {

@@ -21,6 +21,7 @@ mod leaves;
 mod load;
 mod member;
 mod midline;
+mod named;
 mod portal;
 mod random;
 mod stack;
@@ -32,13 +33,11 @@ pub use bridge::Spread;
 pub use deposit::{Deposit, bed_split, deposit, filled};
 pub use load::{Road, loads, on_road, said};
 pub use member::members;
+pub use named::MAX_BLOCKS;
+use named::{digits, numbered, support};
 
 use crate::{BlockSpec, Shape, Template, template};
 use base::error::{InputError, JsonPath};
-
-/// The most blocks one template may make. More is taken for a mistake (a count of 10⁹ would
-/// otherwise end in memory exhaustion).
-pub const MAX_BLOCKS: usize = base::limits::BLOCKS;
 
 /// The blocks of a template, in order.
 ///
@@ -233,21 +232,6 @@ fn is_finite(block: &BlockSpec) -> bool {
             Shape::Sphere { radius } => radius.is_finite(),
             Shape::Clump { spheres } => spheres.iter().all(|b| all(&b.at) && b.radius.is_finite()),
         }
-}
-
-/// A support of the given shape.
-fn support(id: impl Into<String>, shape: Shape) -> BlockSpec {
-    BlockSpec { support: true, ..BlockSpec::new(id, shape) }
-}
-
-/// `v07`: a letter and a number, padded with zeros so that `count` of them sort by name.
-fn numbered(letter: &str, index: usize, count: usize) -> String {
-    format!("{letter}{index:0width$}", width = digits(count))
-}
-
-/// Digits of the largest index among `count`, at least 2.
-fn digits(count: usize) -> usize {
-    count.saturating_sub(1).max(10).ilog10() as usize + 1
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@
 
 mod edit;
 mod factors;
+mod forgery;
 mod honest;
 mod numbers;
 mod opposite;
@@ -23,6 +24,7 @@ use crate::{
 use analysis::recompute::Solvers;
 use base::error::RowsError;
 use check::proof::{read::read_str, verify::verify_model};
+use forgery::Forgery;
 use honest::Honest;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
@@ -81,13 +83,6 @@ impl Forged {
     pub fn count(&self) -> usize {
         self.made.values().sum()
     }
-}
-
-/// A false result.
-struct Forgery {
-    kind: &'static str,
-    what: String,
-    file: Value,
 }
 
 /// The file in which the scenes of a seed are kept.
@@ -199,7 +194,7 @@ fn honest(seed: u64, index: usize) -> Result<Vec<Honest>, base::error::InputErro
 
 /// Whether a file is called proved. One that cannot be read is not.
 fn is_proved(honest: &Honest, file: &Value) -> bool {
-    let Ok(file) = read_str("forged", &file.to_string()) else { return false };
+    let Ok(file) = read_str("forged", file.to_string()) else { return false };
     verify_model(&file, &honest.scene, &honest.model, &Solvers).proved()
 }
 
