@@ -180,9 +180,9 @@ fn files(name: &str) -> BTreeMap<String, File> {
     let inside = |text: &str| match order().iter().any(|own| own == name) {
         true => text.to_string(),
         false => text
-            .replace(&format!("crate::{name}::"), "@")
+            .replace(&format!("crate::{name}::"), "\u{1}")
             .replace("crate::", "facade::")
-            .replace('@', "crate::"),
+            .replace('\u{1}', "crate::"),
     };
     let folder = &format!("src/{name}");
     let depth = Path::new(folder).components().count();
@@ -245,14 +245,14 @@ fn leads_to(
 /// Files that need each other today, `mod.rs` counted: of each crate how many stand in circles. They
 /// may become fewer, and then this list does.
 const CIRCLES: &[(&str, usize)] = &[
-    ("scene", 21),
-    ("model", 10),
-    ("cholesky", 4),
+    ("scene", 4),
+    ("model", 5),
     ("check", 30),
-    ("analysis", 23),
-    ("sweep", 10),
-    ("report", 32),
-    ("live", 8),
+    ("analysis", 19),
+    ("sweep", 4),
+    ("report", 4),
+    ("cli", 4),
+    ("live", 2),
 ];
 
 #[test]

@@ -19,7 +19,7 @@ mod told;
 pub(super) use loads::{mass_place, place};
 pub(super) use members::{members, point};
 
-use crate::assembly::{Assembly};
+use crate::assembly::Assembly;
 use base::error::{Finding, FindingCode};
 use scene::Scene;
 use told::{Told, Weights, density, first, free, is_on_earth, median, short};
