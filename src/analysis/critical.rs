@@ -2,7 +2,7 @@
 //!
 //! The range is scanned first, since a verdict may flip more than once (a voussoir arch is not
 //! monotone in anything but its load). Between neighbours whose verdicts differ the flip is
-//! narrowed ([`flip`](super::critical_value)). A value at which the scene falls less than at both its
+//! narrowed ([`critical_value`](super::critical_value)). A value at which the scene falls less than at both its
 //! neighbours may hide a window in which it stands: there the least unbalance is followed to its
 //! lowest point. A window in which it falls, between two values at which it stands, has no such
 //! trace; only a finer scan finds it.

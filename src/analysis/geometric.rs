@@ -4,7 +4,7 @@
 //! weights unchanged, and still contain a line of thrust: for an arch the ratio of its thickness to
 //! that of the thinnest arch inside it that carries the same loads (Heyman 1969, Int. J. Mech. Sci.
 //! 11; 1982, The Masonry Arch). Friction limits the lines of thrust as it does in the scene. The
-//! share of the sections that is left is a critical value like any other ([`flip`](super::critical_value)).
+//! share of the sections that is left is a critical value like any other ([`critical_value`](super::critical_value)).
 
 use super::{
     Assessment, Control, Law, Proved, assess,

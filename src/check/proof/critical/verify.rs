@@ -2,9 +2,9 @@
 //! proved there.
 
 use super::{CriticalResult, FlipResult, ScanPoint, Side, exhausted};
-use crate::proof::recompute::Recompute;
 use crate::{
     proof::{
+        recompute::Recompute,
         result::{QuestionKind, ResultFile},
         verify::{Verification, answer, failure, require},
     },

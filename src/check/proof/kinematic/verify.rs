@@ -2,12 +2,12 @@
 //! their own, and every other number by doing the arithmetic again.
 
 use super::{Given, KinematicAnswer, Numbers};
-use crate::proof::recompute::Recompute;
 use crate::{
     kinematic::{Quake, quake, without_members},
     proof::{
         answer::Answer,
         path::{self, DrivenBy, PathResult},
+        recompute::Recompute,
         result::{Direction, QuestionKind, ResultFile},
         verify::{
             Verification, again, answer, failure, follows, mechanism_words, members, require,

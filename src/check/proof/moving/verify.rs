@@ -2,9 +2,9 @@
 //! missing, and that the answer is the least.
 
 use super::least;
-use crate::proof::recompute::Recompute;
 use crate::{
     proof::{
+        recompute::Recompute,
         result::{Direction, QuestionKind, ResultFile},
         verify::{
             Verification, again, answer, failure, follows, mechanism_words, members, require,

@@ -2,13 +2,13 @@
 //! again.
 
 use super::{RockingAnswer, RockingSense};
-use crate::proof::recompute::Recompute;
 use crate::{
     kinematic::quake,
     proof::{
         answer::Answer,
         certificate::Certificate,
         kinematic::differs,
+        recompute::Recompute,
         result::ResultFile,
         verify::{
             Verification, bound_says, failure, is_no_better, mechanism_words, members, require,

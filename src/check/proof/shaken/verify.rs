@@ -2,11 +2,11 @@
 //! engine does when it is run again.
 
 use super::{ShakenAnswer, ShakenBlock, ShakenWord};
-use crate::proof::recompute::Recompute;
 use crate::{
     proof::{
         answer::Answer,
         kinematic::differs,
+        recompute::Recompute,
         result::ResultFile,
         verify::{Verification, failure, require},
     },

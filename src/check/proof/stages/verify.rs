@@ -2,11 +2,11 @@
 //! verified there as results of their own.
 
 use super::{HeldForce, Reaction, StageProof, StageResult};
-use crate::proof::recompute::Recompute;
 use crate::{
     path::reaction,
     proof::{
         certificate::Certificate,
+        recompute::Recompute,
         result::{QuestionKind, ResultFile},
         verify::{Verification, failure, require, verify_model},
     },

@@ -2,12 +2,12 @@
 //! step by step, and with them everything that the answer says.
 
 use super::{Given, StateAnswer, StateResult, StepResult};
-use crate::proof::recompute::Recompute;
 use crate::{
     elastic::{Joints, PathEnd, Track},
     proof::{
         answer::Answer,
         certificate::Certificate,
+        recompute::Recompute,
         result::{QuestionKind, ResultFile},
         verify::{Verification, answer, failure, is_no_better, members, require},
     },

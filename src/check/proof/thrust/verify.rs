@@ -2,10 +2,10 @@
 //! sections, the table from the forces.
 
 use super::{ThrustSection, factor, table};
-use crate::proof::recompute::Recompute;
 use crate::{
     proof::{
         certificate::Certificate,
+        recompute::Recompute,
         result::{QuestionKind, ResultFile},
         verify::{Verification, answer, failure, mechanism_words, require},
     },
