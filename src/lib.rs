@@ -126,7 +126,7 @@
 
 pub use analysis;
 pub use base::{error, files, limits, number, plain, plane, tolerance};
-pub use check::{elastic, ground, kinematic, path, rocking, terms, verdict};
+pub use check::{elastic, ground, kinematic, path, question, rocking, terms, verdict};
 pub use cholesky::{self, parallel};
 pub use dynamics;
 pub use model::{assembly, interface, strength, train};
@@ -151,9 +151,10 @@ pub mod proof {
     };
     pub use check::proof::verify::{self};
     pub use check::proof::{
-        Answer, PackingFile, ResultFile, Simulation, VerificationFile, answer, certificate,
-        critical, kinematic, member, moving, packing, path, read, recompute, result, rocking,
-        shaken, simulation, stages, state, thrust, verification, work,
+        Answer, Derived, Evidence, PackingFile, ResultFile, Run, Saved, Simulation, Verification,
+        VerificationFile, answer, certificate, compare, critical, derive, evidence, kinematic,
+        member, moving, packing, path, read, recompute, result, rocking, shaken, simulation,
+        stages, state, thrust, told, verification, work,
     };
     pub use sweep::path as kept;
 }

@@ -124,7 +124,7 @@ impl Answer {
 
     /// What was asked.
     fn question<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        Ok(pythonize(py, &self.kept.file.question)?)
+        Ok(pythonize(py, &self.kept.file.question.kind())?)
     }
 
     /// A part of the result as plain values; `None` where it has none.
@@ -167,7 +167,7 @@ impl Answer {
 
     /// What the user should know.
     fn warnings(&self) -> Vec<(String, String, bool, bool)> {
-        self.kept.file.warnings.iter().map(told).collect()
+        self.kept.file.warnings().map(told).collect()
     }
 
     /// A certificate: its claim as plain values, what its check found; `None` where there is none.
@@ -177,7 +177,7 @@ impl Answer {
         which: &str,
     ) -> PyResult<Option<(Bound<'py, PyAny>, Vec<String>)>> {
         let Some(certificate) = self.certificate(which) else { return Ok(None) };
-        Ok(Some((pythonize(py, &certificate.claim)?, certificate.verified.clone())))
+        Ok(Some((pythonize(py, &certificate.claim)?, certificate.verified().clone())))
     }
 
     /// The forces of a certificate in flat arrays; `None` where there is none.

@@ -155,7 +155,7 @@ fn answer(
             };
             let Found::Simulate(seen) = &outcome else { return Err(none()) };
             let mut file = saved::simulated(&ready.scene, &model, assessment, seen);
-            file.doubt = doubt(&outcome, &model, &control);
+            file.run.doubt = doubt(&outcome, &model, &control);
             file
         }
         Question::Shake(_) => {
@@ -168,9 +168,9 @@ fn answer(
             let made = saved::packing(&ready.scene, options.moving_mass, packing);
             let made = made.map_err(|e| ready.located(e))?;
             let (mut file, proof) = made.ok_or_else(none)?;
-            file.timings.check = proof.timings.check;
-            file.timings.solve = (begin.elapsed().as_secs_f64() - file.timings.check).max(0.0);
-            file.doubt = doubt(&found, &model, &control);
+            file.run.timings.check = proof.timings.check;
+            file.run.timings.solve = (begin.elapsed().as_secs_f64() - file.run.timings.check).max(0.0);
+            file.run.doubt = doubt(&found, &model, &control);
             // The round with the answer: grains that fell earlier are gone.
             let own = prepare(&proof.scene.input).map_err(|e| ready.located(e))?;
             let packed = Packed { file, scene: ready.scene.clone() };
@@ -196,11 +196,11 @@ fn answer(
     };
     let mut file = file;
     if let Some(s) = &file.simulation {
-        file.timings.simulate = s.runs.iter().map(|r| r.seconds).sum();
+        file.run.timings.simulate = s.runs.iter().map(|r| r.seconds).sum();
     }
-    file.timings.solve =
-        (begin.elapsed().as_secs_f64() - file.timings.simulate - file.timings.check).max(0.0);
-    file.work = Some(Work::of(&file, &model));
+    file.run.timings.solve =
+        (begin.elapsed().as_secs_f64() - file.run.timings.simulate - file.run.timings.check).max(0.0);
+    file.run.work = Some(Work::of(&file, &model));
     Ok(Answer::new(file, model, film, None))
 }
 

@@ -182,7 +182,7 @@ fn answer(
     means: Means<'_, '_>,
 ) -> Result<Answer, InputError> {
     question.check()?;
-    let control = &question.control(control);
+    let control = &Control { law: question.law(), ..*control };
     Ok(match question {
         Question::Assess(_) => Answer::Assess(assess(model, control)),
         Question::Limit(options) => {

@@ -26,13 +26,11 @@ mod part_cache;
 mod parts;
 pub mod piles;
 mod proved;
-pub mod question;
 pub mod recompute;
 mod repair;
 pub mod repose;
 pub mod rocking;
 pub mod saved;
-mod settling;
 pub mod stability;
 pub mod stages;
 pub mod state;
@@ -58,15 +56,14 @@ pub use ladder::Control;
 pub use limit::{LoadFactor, limit};
 pub use moving::Moving;
 pub use proved::{Claims, Proved};
-pub use question::{
-    AssessOptions, ControlPoint, CriticalOptions, KinematicOptions, LimitOptions, MovingOptions,
-    PushOptions, Question, ReposeOptions, SimulateOptions, ThrustOptions, TiltOptions,
+pub use check::question::{
+    self, AssessOptions, ControlPoint, CriticalOptions, KinematicOptions, LimitOptions,
+    MovingOptions, PushOptions, Question, ReposeOptions, SettleOptions, SimulateOptions,
+    StagesOptions, StateOptions, SupportMove, ThrustOptions, TiltOptions,
 };
 pub use rocking::Rocking;
-pub use settling::{SettleOptions, SupportMove};
 pub use stability::{Packing, Stability, stability};
-pub use stages::{Stages, StagesOptions, stages};
-pub use state::StateOptions;
+pub use stages::{Stages, stages};
 pub use tilt::{Tilt, tilt};
 pub use {
     ask::ask_watched,

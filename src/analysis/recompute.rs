@@ -1,19 +1,19 @@
 //! What a check computes again, with the solvers and the engine of this build.
 
 use crate::{
-    Answer, AssessOptions, Control, CriticalOptions, KinematicOptions, LimitOptions, MovingOptions,
-    Question, ThrustOptions, TiltOptions, Watch, ask, ask_watched, closing, coulomb,
-    critical::probe, saved, stages,
+    Answer, Control, Question, Watch, ask, ask_watched, assess, closing, coulomb, critical::probe,
+    saved, stages,
 };
 use base::error::InputError;
 use check::{
     proof::{
         self,
+        Saved,
         recompute::Recompute,
-        result::{QuestionKind, ResultFile},
         rocking::RockingAnswer,
         shaken::ShakenAnswer,
-        verify::Verification,
+        simulation::Seen,
+        verify::Verified,
     },
     rocking::RockOptions,
     terms::{ClosedAnswer, Law, Order, StateMotion, Stop},
@@ -33,7 +33,7 @@ pub struct Solvers;
 ///
 /// # Errors
 /// The scene cannot be resolved.
-pub fn verify(file: &ResultFile, scene: &Scene) -> Result<Verification, InputError> {
+pub fn verify(file: &Saved, scene: &Scene) -> Result<Verified, InputError> {
     proof::verify(file, scene, &Solvers)
 }
 
@@ -60,42 +60,37 @@ impl Recompute for Solvers {
 
     fn closed(
         &self,
-        file: &ResultFile,
+        question: &Question,
         law: Law,
         scene: &Scene,
         model: &Model,
     ) -> Option<Option<(Law, ClosedAnswer)>> {
-        let all = file.directions.iter().map(|d| &d.answer).chain([&file.answer]);
-        let toward = all.filter_map(proof::Answer::toward).collect();
-        let question = match (file.question, &file.answer, &file.critical) {
-            (QuestionKind::Assess, ..) | (QuestionKind::Thrust, proof::Answer::Verdict(_), _) => {
-                Question::Assess(AssessOptions { law })
-            }
-            (QuestionKind::Limit, ..) => Question::Limit(LimitOptions::default()),
-            (QuestionKind::Tilt, ..) => {
-                Question::Tilt(TiltOptions { toward, ..TiltOptions::default() })
-            }
-            (QuestionKind::Moving, ..) => Question::Moving(MovingOptions::default()),
-            (QuestionKind::Kinematic, ..) => {
-                Question::Kinematic(KinematicOptions { toward, ..KinematicOptions::default() })
-            }
-            (QuestionKind::Thrust, proof::Answer::Thrust(t), _) => {
-                Question::Thrust(ThrustOptions {
-                    support: t.support.clone(),
-                    member: t.member.clone(),
-                    direction: t.direction,
-                    ..ThrustOptions::default()
-                })
-            }
-            (QuestionKind::Critical, _, Some(c)) => Question::Critical(CriticalOptions {
-                law,
-                vary: c.vary.clone(),
-                between: c.between,
-                scan: Some(c.scan.len()),
-            }),
-            _ => return Some(None),
-        };
+        let mut question = question.clone();
+        match &mut question {
+            Question::Assess(o) => o.law = law,
+            Question::Thrust(o) => o.law = law,
+            Question::Critical(o) => o.law = law,
+            _ => {}
+        }
         Some(closing::again(&question, scene, model, &Control::default()))
+    }
+
+    fn simulated(
+        &self,
+        said: &Seen,
+        scene: &Scene,
+        model: &Model,
+    ) -> Option<Result<Seen, InputError>> {
+        let control = Control::default();
+        let beside = said.motion.is_some() || said.forces.is_some();
+        let assessment = beside.then(|| assess(model, &control));
+        match ask(&Question::Simulate(said.asked.clone()), scene, model, &control) {
+            Ok(Answer::Simulate(outcome)) => {
+                Some(Ok(saved::seen(model, &said.asked, assessment.as_ref(), &outcome)))
+            }
+            Ok(_) => None,
+            Err(e) => Some(Err(e)),
+        }
     }
 
     fn rocking(

@@ -8,10 +8,9 @@
 //! What stood still stands where nothing that it rests on has changed: an independent part that
 //! several stages have alike is answered once, and its proof checked in each.
 
-mod options;
 mod order;
 
-pub use options::{MOST_TRIES, StagesOptions};
+use check::question::{MOST_TRIES, StagesOptions};
 
 use super::{
     Answer, Assessment, Control, LimitOptions, Proved, Question, TiltOptions, ask, doubt,

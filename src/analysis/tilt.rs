@@ -248,25 +248,3 @@ fn own_answer<T>(
 /// Tilts tried. The secant takes some six; more are needed only where joints hold almost everything
 /// at any tilt.
 const MOST_TILTS: usize = 30;
-
-/// `count` directions across gravity, evenly spread, the first along x (or along y, where gravity
-/// is along x).
-pub fn directions(gravity: Vector3<f64>, count: usize) -> Vec<Vector3<f64>> {
-    let down = gravity.normalize();
-    let across = |axis: Vector3<f64>| axis - down * down.dot(&axis);
-    let e1 = [Vector3::x(), Vector3::y()]
-        .map(across)
-        .into_iter()
-        .find(|v| v.norm() > 0.5)
-        .unwrap_or_else(|| across(Vector3::z()))
-        .normalize();
-    let e2 = e1.cross(&down);
-    // Exact along the axes: what is 1e-16 there is rounding of the cosine.
-    let clean = |c: f64| if c.abs() < 1e-15 { 0.0 } else { c };
-    (0..count)
-        .map(|k| {
-            let (sin, cos) = (std::f64::consts::TAU * k as f64 / count as f64).sin_cos();
-            (e1 * clean(cos) + e2 * clean(sin)).map(clean)
-        })
-        .collect()
-}

@@ -10,6 +10,7 @@ pub mod ground;
 pub mod kinematic;
 pub mod path;
 pub mod proof;
+pub mod question;
 pub mod rocking;
 pub mod terms;
 pub mod verdict;

@@ -25,12 +25,14 @@ pub fn run(args: &Assess, terminal: &Terminal) -> anyhow::Result<Exit> {
     let mut film = Vec::new();
     if let (true, Answer::Assess(assessment)) = (args.simulate || (args.thorough && doubt), &answer)
     {
-        let asked = Question::Simulate(SimulateOptions::default());
+        let options = SimulateOptions::default();
+        let asked = Question::Simulate(options.clone());
         let mut camera = Camera::new(&session, args.threads, session.report().is_some());
         if let Answer::Simulate(outcome) =
             camera.ask(&session, &asked, &mut |_| ControlFlow::Continue(()))?
         {
-            file = saved::with_simulation(file, &session.model, Some(assessment), &outcome);
+            file = saved::with_simulation(&file, &options, &session.model, assessment, &outcome)
+                .map_err(|e| session.refuse(e))?;
         }
         film = camera.frames();
     }

@@ -10,7 +10,7 @@ use anyhow::bail;
 use voussoir::{
     analysis::{Answer, Critical, CriticalOptions, Question},
     number::fixed,
-    proof::{critical::exhausted, saved},
+    proof::{critical::CriticalResult, saved},
     report::view::View,
     verdict::Verdict,
 };
@@ -56,7 +56,7 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
     )?;
     let exit = match file.answer.critical() {
         Some(values) if !values.is_empty() => Exit::Yes,
-        _ if exhausted(&file).is_some() => Exit::No,
+        _ if file.critical.as_ref().and_then(CriticalResult::exhausted).is_some() => Exit::No,
         _ => Exit::Undecided,
     };
     Ok(unless_weaker(&file, exit))
@@ -68,7 +68,8 @@ fn picture(session: &Session, answer: &Critical) -> anyhow::Result<Depicted> {
     let Some(side) = sides.into_iter().find(|s| s.assessment.verdict == Verdict::Unstable) else {
         return Ok(Depicted::Scene(Vec::new()));
     };
-    let file = saved::assessment(&session.scene, &side.model, &side.assessment);
+    let file = saved::assessment(&session.scene, &side.model, &side.assessment)
+        .map_err(|e| session.refuse(e))?;
     let mut view = View::new(&side.model, &file, Vec::new())?;
     view.caption = format!("falls with {} at {}", answer.range.pointer, fixed(side.value, DIGITS));
     Ok(Depicted::Other(Box::new(view)))

@@ -159,7 +159,7 @@ pub fn simulate(args: &Simulate, session: &Session, terminal: &Terminal) -> anyh
         shaken.shaken.frames.clear();
     }
     let mut file = session.result(&question, &answer)?;
-    file.warnings.extend(record.into_iter().flat_map(|r| r.findings));
+    file.run.warnings.extend(record.into_iter().flat_map(|r| r.findings));
     let seen = Depicted::Charted(camera.frames(), charts);
     let file = session.answer_seen(terminal, &args.options(), seen, file)?;
     Ok(match file.answer.shaken().map(|a| a.fate) {

@@ -205,8 +205,9 @@ fn kept(path: &std::path::Path, made: Value, args: &Repose) -> anyhow::Result<Ke
 /// A heap at rest, with the forces and the mechanism of its static margin where that was asked for.
 fn picture(heap: &Heap, margin: Option<&Margin>) -> anyhow::Result<View> {
     let tilted = margin.map(|m| (m, Tilted { directions: vec![m.tilt.clone()], level: None }));
-    let proof =
-        tilted.and_then(|(m, tilted)| Some((m, saved::tilt(&m.scene, &m.tilt.model, &tilted)?)));
+    let proof = tilted
+        .map(|(m, tilted)| saved::tilt(&m.scene, &m.tilt.model, &tilted).map(|file| (m, file)))
+        .transpose()?;
     let mut view = match proof {
         Some((margin, file)) => View::new(&prepare(&margin.scene)?, &file, Vec::new())?,
         None => View::bare(&prepare(&heap.scene)?),

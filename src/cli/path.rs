@@ -9,7 +9,7 @@ use super::{
     question::{Depicted, Session},
     terminal::Terminal,
 };
-use anyhow::Context;
+use anyhow::{Context, bail};
 use voussoir::{
     analysis::{ControlPoint, PushOptions, Question, SettleOptions},
     path::saved::SavedPose,
@@ -22,39 +22,47 @@ pub fn settle(args: &Settle, terminal: &Terminal) -> anyhow::Result<Exit> {
         let session = Session::open(&args.common)?;
         return cracks::run(&session, file, args.common.json, args.common.quiet);
     }
+    let session = Session::open(&args.common)?.filmed(&args.curve.pictures)?;
     let question = Question::Settle(SettleOptions {
         moves: args.moves.clone(),
         at: args.at.clone(),
-        from: begin(&args.curve)?,
+        from: begin(&session, &args.curve)?,
     });
-    let session = Session::open(&args.common)?.filmed(&args.curve.pictures)?;
     run(&session, &question, &args.curve, &args.options(), terminal)
 }
 
 pub fn push(args: &Push, terminal: &Terminal) -> anyhow::Result<Exit> {
     let (block, point) = args.control.clone();
+    let session = Session::open(&args.common)?.filmed(&args.curve.pictures)?;
     let question = Question::Push(PushOptions {
         control: ControlPoint { block, point },
         toward: args.toward,
         at: args.at.clone(),
-        from: begin(&args.curve)?,
+        from: begin(&session, &args.curve)?,
     });
-    let session = Session::open(&args.common)?.filmed(&args.curve.pictures)?;
     run(&session, &question, &args.curve, &args.options(), terminal)
 }
 
-/// The last pose of the result to begin at, where there is one.
-fn begin(curve: &Curve) -> anyhow::Result<Vec<SavedPose>> {
+/// The last pose of the result to begin at, where there is one: of a result that is verified against
+/// the scene that is asked about.
+fn begin(session: &Session, curve: &Curve) -> anyhow::Result<Vec<SavedPose>> {
     let Some(from) = &curve.from else { return Ok(Vec::new()) };
-    let text = std::fs::read_to_string(from)
-        .with_context(|| format!("{}: cannot be read", from.display()))?;
-    let file = proof::read::read_str(from.display().to_string(), text)?;
-    let last = file.path.as_ref().and_then(|path| {
+    let name = from.display();
+    let text = std::fs::read_to_string(from).with_context(|| format!("{name}: cannot be read"))?;
+    let saved = proof::read::read_str(name.to_string(), text)?;
+    let verified = proof::verify(&saved, &session.scene)?;
+    if let Some((title, findings)) = verified.parts.iter().find(|(_, f)| !f.fails.is_empty()) {
+        bail!(
+            "{name} is refuted for this scene: {title}: {}\nhint: ask again with --save, about the scene as it is",
+            findings.fails.join("; ")
+        );
+    }
+    let path = verified.file.as_ref().and_then(|file| file.path.as_ref());
+    let last = path.and_then(|path| {
         let proved = |p: &&proof::path::PathPoint| p.certificate.claim.is_some();
         path.points.iter().take_while(proved).last()
     });
     let last = last.filter(|p| !p.poses.is_empty());
-    let name = from.display();
     last.map(|p| p.poses.clone())
         .with_context(|| format!("{name} holds no pose of a structure that has moved"))
 }

@@ -10,7 +10,7 @@ use super::{
     report, terminal,
     terminal::Terminal,
 };
-use anyhow::{Context, bail};
+use anyhow::bail;
 use std::{path::Path, time::Instant};
 use voussoir::{
     analysis::{
@@ -21,7 +21,8 @@ use voussoir::{
     error::{Finding, FindingCode, InputError},
     interface::{Model, prepare_timed},
     limits,
-    proof::{ResultFile, answer::FactorStatus, result::QuestionKind as Kind, saved, work::Work},
+    proof::{ResultFile, answer::FactorStatus, saved, work::Work},
+    question::QuestionKind as Kind,
     report::{
         json, kinematic, moving, page,
         record::Record,
@@ -210,7 +211,7 @@ impl<'a> Session<'a> {
     /// The result that proves an answer.
     pub fn result(&self, question: &Question, answer: &Answer) -> anyhow::Result<ResultFile> {
         saved::of_question(question, &self.scene, &self.model, answer, &self.control())
-            .context("there is no answer to write down")
+            .map_err(|e| self.refuse(e))
     }
 
     /// Whether a bar may show how far long work is.
@@ -273,12 +274,12 @@ impl<'a> Session<'a> {
         mut file: ResultFile,
     ) -> anyhow::Result<ResultFile> {
         if let Some(s) = &file.simulation {
-            file.timings.simulate = s.runs.iter().map(|r| r.seconds).sum();
+            file.run.timings.simulate = s.runs.iter().map(|r| r.seconds).sum();
         }
-        file.timings.solve =
-            (self.start.elapsed().as_secs_f64() - file.timings.simulate - file.timings.check)
+        file.run.timings.solve =
+            (self.start.elapsed().as_secs_f64() - file.run.timings.simulate - file.run.timings.check)
                 .max(0.0);
-        file.work = Some(Work::of(&file, &self.model));
+        file.run.work = Some(Work::of(&file, &self.model));
         let scene = match self.common.scene.to_string_lossy() {
             name if name == "-" => "SCENE".into(),
             name => quoted(&name),
@@ -323,12 +324,12 @@ impl<'a> Session<'a> {
                 report.write(&page::filed(&text, &view, &charts, &record)?)?;
             }
             // Stages are one film, and drawn by the worst of them.
-            let staged = file.question == Kind::Stages;
+            let staged = file.question.kind() == Kind::Stages;
             if staged {
                 self.pictures.write_model(&view)?;
             }
             let films = [Kind::Simulate, Kind::Shake, Kind::Settle, Kind::Push];
-            if !films.contains(&file.question) {
+            if !films.contains(&file.question.kind()) {
                 // A verdict is drawn with its mechanism, whatever else was seen.
                 view.film.clear();
             }

@@ -82,7 +82,7 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
         saved::packing(&session.scene, args.moving_mass, packing).map_err(|e| session.refuse(e))?;
     let (mut file, proof) = packed.context("no direction to tilt towards")?;
     (file.timings.check, file.timings.solve) =
-        (proof.timings.check, (solve - proof.timings.check).max(0.0));
+        (proof.run.timings.check, (solve - proof.run.timings.check).max(0.0));
     file.doubt = doubt(&answer, &session.model, &session.control());
     if let Some(forces) = &forces {
         file.fabric = args.fabric.then(|| fabric(model, forces));

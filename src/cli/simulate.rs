@@ -73,7 +73,7 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
         to_the_end: args.to_the_end,
         load_factor: None,
     };
-    let answer = camera.ask(&session, &Question::Simulate(options), &mut keep)?;
+    let answer = camera.ask(&session, &Question::Simulate(options.clone()), &mut keep)?;
     let film = camera.frames();
     if let (Some(e), Some(path)) = (failure, &args.csv) {
         return Err(e).with_context(|| written(path));
@@ -87,8 +87,10 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
         Some(Answer::Assess(a)) => Some(a),
         _ => None,
     };
-    let mut file = saved::simulated(&session.scene, &session.model, assessment, outcome);
-    file.doubt = doubt(&answer, &session.model, &session.control());
+    let mut file =
+        saved::simulated(&options, &session.scene, &session.model, assessment, outcome)
+            .map_err(|e| session.refuse(e))?;
+    file.run.doubt = doubt(&answer, &session.model, &session.control());
     let file = session.answer_seen(terminal, &args.options(), Depicted::Scene(film), file)?;
     // What is proved to fall does not stand because it was seen to.
     let falls = matches!(file.answer.verdict(), Some(Verdict::Unstable | Verdict::Conditional));

@@ -60,7 +60,7 @@ fn worst<'a>(
     let Answer::Stages(asked) = answer else { return None };
     let said = file.answer.stages().filter(|_| !asked.remove_each)?;
     let stage = asked.stages.iter().find(|s| s.stage.name == said.worst)?;
-    let mut own = saved::assessment(&session.scene, &stage.model, &stage.verdict);
+    let mut own = saved::assessment(&session.scene, &stage.model, &stage.verdict).ok()?;
     own.scene.name = format!("{}: {}", file.scene.name, said.worst);
     Some((&stage.model, own))
 }

@@ -6,7 +6,8 @@ use crate::{
     deadline::Deadline,
     error::InputError,
     interface::Model,
-    proof::{result::QuestionKind as Kind, saved, work::Work},
+    proof::{saved, work::Work},
+    question::QuestionKind as Kind,
     report::{
         kinematic, page,
         text::{self, Asked, Layout, TextOptions},
@@ -87,10 +88,10 @@ pub fn answer(
         return Ok(None);
     }
     let refuse = |why: String| InputError::at(crate::error::JsonPath::root(), why);
-    let mut result = packed.ok_or_else(|| refuse("there is no answer to write down".into()))?;
-    result.timings.solve = (seconds - result.timings.check).max(0.0);
-    result.work = Some(Work::of(&result, model));
-    let path = matches!(result.question, Kind::Settle);
+    let mut result = packed?;
+    result.run.timings.solve = (seconds - result.run.timings.check).max(0.0);
+    result.run.work = Some(Work::of(&result, model));
+    let path = result.question.kind() == Kind::Settle;
     let film = if path { frames(model, &result) } else { Vec::new() };
     let view = View::new(model, &result, film).map_err(|e| refuse(e.to_string()))?;
     let name = ready.file.name();

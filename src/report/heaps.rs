@@ -5,7 +5,7 @@ use analysis::{
     repose::{Heap, Margin, Slope, confirm::Confirmed, seen::Seen},
 };
 use base::{error::Finding, number::short};
-use check::proof::result::Versions;
+use check::proof::packing::Versions;
 use scene::Protocol;
 use serde::{Deserialize, Serialize};
 

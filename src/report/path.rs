@@ -95,10 +95,7 @@ pub fn csv(file: &ResultFile) -> Result<String, CurveError> {
 
 /// What bounds a load factor with dry friction from above, where that was found.
 pub fn bound(point: &PathPoint) -> Option<f64> {
-    match point.bound.as_ref()?.claim {
-        Some(Claim::LoadFactor { upper, .. }) => Some(upper),
-        _ => None,
-    }
+    point.most
 }
 
 /// What holds the structure, in words with its unit.

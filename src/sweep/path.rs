@@ -7,10 +7,7 @@ use analysis::{
     follow::answer::{Followed, GoesOn},
 };
 use base::error::{InputError, RowsError};
-use check::proof::{
-    ResultFile,
-    path::{Bracketed, PathResult},
-};
+use check::proof::{ResultFile, evidence::PathEvidence};
 use model::interface::Model;
 use scene::Scene;
 use serde::{Deserialize, Serialize};
@@ -20,10 +17,7 @@ use std::path::Path;
 /// What is kept: points that are new, and what happened up to there.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Piece {
-    path: PathResult,
-    /// The least reaction, of the start.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    least_reaction: Option<Bracketed>,
+    path: PathEvidence,
 }
 
 /// A file of the points of one path, which goes on from the last of them.
@@ -55,10 +49,9 @@ impl KeptPath {
             "contacts": model.interfaces.list.len(),
             "question": question,
         });
-        let kept = Kept::<Piece>::open(file, "voussoir-path/1", of)?;
+        let kept = Kept::<Piece>::open(file, "voussoir-path/2", of)?;
         let before = kept.there.iter().cloned().reduce(|before, next| Piece {
             path: before.path.and(next.path),
-            least_reaction: before.least_reaction,
         });
         // The start is no place to go on from.
         let before = before.filter(|b| b.path.points.last().is_some_and(|p| !p.poses.is_empty()));
@@ -88,24 +81,19 @@ impl KeptPath {
         let mut hears = |new: &Followed| {
             // What comes after a point without a proof is none of a path that is proved.
             ended |= new.proofs.iter().any(|p| p.claim.is_none());
-            let found = saved::path(scene, model, new);
-            let (Some(path), false) = (found.path, ended) else { return };
-            let least_reaction = found.answer.path().and_then(|a| a.least_reaction);
-            if let Err(e) = self.kept.append(&Piece { path, least_reaction }) {
+            if ended {
+                return;
+            }
+            let path = saved::path_evidence(model, new);
+            if let Err(e) = self.kept.append(&Piece { path }) {
                 ended = true;
                 failed = Some(e);
             }
         };
         let path = GoesOn { from: &from, hears: &mut hears };
         let answer = ask_on(question, scene, model, control, path)?;
-        let result = saved::of_question(question, scene, model, &answer, control);
-        let mut result = result.ok_or_else(|| {
-            InputError::at(Default::default(), "this question follows no path")
-                .hint("ask `settle` or `push`")
-        })?;
-        if let Some(before) = self.before {
-            result.goes_on(before.path, before.least_reaction);
-        }
+        let before = self.before.map(|b| b.path);
+        let result = saved::of_path(question, scene, model, &answer, before)?;
         Ok((result, failed))
     }
 }

@@ -9,13 +9,12 @@ use analysis::{
         End,
         answer::{Followed, PointProof},
     },
-    saved,
     state::Stated,
     thrust::ThrustEnd,
 };
 use check::{
     elastic::PathEnd,
-    proof::critical::FlipResult,
+    proof::critical::{CriticalValue, placed},
     rocking,
     verdict::{Rate, Verdict},
 };
@@ -401,9 +400,13 @@ impl RowAnswer {
     /// The first flip of the range, where its value is proved as a result has it; without any flip
     /// the verdict throughout, where all values that were asked have it.
     fn of_flips(c: &Critical) -> Self {
-        let flips: Vec<FlipResult> = c.changes.iter().map(saved::flip).collect();
-        let value = flips.first().filter(|f| f.method != Method::Scan || c.whole);
-        if let Some(flip) = value.and_then(FlipResult::proved) {
+        let first = c.changes.first().and_then(|f| {
+            let ends = [f.below.value, f.above.value];
+            let known = placed(f.value, f.method, ends).1 != Method::Scan || c.whole;
+            let verdicts = [&f.below, &f.above].map(|probe| probe.assessment.verdict);
+            CriticalValue::new((f.value, f.method), ends, verdicts).filter(|_| known)
+        });
+        if let Some(flip) = first {
             return Self {
                 value: Some(flip.value),
                 lower: Some(flip.lower),
@@ -413,7 +416,7 @@ impl RowAnswer {
         }
         let verdict = |s: &Scanned| s.outcome.as_ref().ok().map(|o| o.0);
         match &c.ends[..] {
-            [first, second] if flips.is_empty() => {
+            [first, second] if c.changes.is_empty() => {
                 let same = |v: Verdict| v == first.assessment.verdict;
                 let all = c.scan.iter().all(|s| verdict(s).is_some_and(same));
                 match all && same(second.assessment.verdict) {

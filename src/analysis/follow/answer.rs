@@ -4,7 +4,6 @@ use super::{
     End, Follow, Path, Point,
     branch::follow,
     moved::Moved,
-    supports,
     tracker::{meets, size},
 };
 use crate::{
@@ -25,7 +24,6 @@ use check::{
         Evidence, Forces, Rate, Verdict, certificate,
         claim::{self, Claim, Findings},
         exact::{existence, motion},
-        tilted::unit,
     },
 };
 use model::{
@@ -96,7 +94,8 @@ pub fn settle(
     let error = |text: String| InputError::at(JsonPath::root(), text);
     followable(model)?;
     let blocks = &model.assembly.blocks;
-    let moves = supports::moves(&model.assembly, &options.moves)?;
+    let drive = Drive::settle(&model.assembly, options)?;
+    let Drive::Settle(Moves(moves)) = &drive else { return Err(error("no support moves".into())) };
     let speed = moves
         .iter()
         .map(|m| m.way.norm() + m.turn.norm() * blocks[m.support].size)
@@ -113,7 +112,6 @@ pub fn settle(
     if !touches {
         return Err(error("no support that moves touches a free block".into()));
     }
-    let drive = Drive::Settle(Moves(moves));
     let begun = begin(model, &drive, &options.from)?;
     let from = later(model, &drive, goes_on.as_ref(), begun.clone())?;
     let how = |size: f64| Follow {
@@ -137,26 +135,13 @@ pub fn push(
     control: &Control,
     goes_on: Option<GoesOn>,
 ) -> Result<Followed, InputError> {
-    let error = |text: String| InputError::at(JsonPath::root(), text);
     followable(model)?;
     if model.assembly.live.iter().all(|w| *w == Wrench::zero()) {
         let path = JsonPath::root().key("loads").key("live");
         return Err(InputError::at(path, "there is no live load on a free block to ask about")
             .hint("add \"loads\": { \"live\": [ { \"weight\": [1, 0, 0] } ] } to the scene"));
     }
-    let blocks = &model.assembly.blocks;
-    let id = &options.control.block;
-    let Some(block) = model.assembly.find(id).filter(|&i| !blocks[i].support) else {
-        return Err(error(format!("{id}: there is no such free block")));
-    };
-    let point = Vector3::from(options.control.point);
-    if (point - blocks[block].centroid).norm() > blocks[block].size {
-        let c: [f64; 3] = blocks[block].centroid.into();
-        return Err(error(format!("the control point is no point of {id}"))
-            .hint(format!("its centre of mass is at {}", base::number::point(c))));
-    }
-    let toward = unit(options.toward.into());
-    let drive = Drive::Push { block, point, toward };
+    let drive = Drive::push(&model.assembly, options)?;
     let begun = begin(model, &drive, &options.from)?;
     let from = later(model, &drive, goes_on.as_ref(), begun.clone())?;
     let how = |size: f64| Follow {

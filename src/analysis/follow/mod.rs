@@ -17,7 +17,6 @@ mod program;
 mod rebalance;
 mod root;
 mod slide;
-mod supports;
 mod tracker;
 
 pub use branch::Follow;

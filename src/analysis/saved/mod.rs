@@ -1,259 +1,181 @@
-//! Answers that were found and proved, as the files that are saved of them.
+//! Answers that were found and proved, as the files that are saved of them: the evidence is written
+//! down here, and what is told of it is derived ([`check::proof::derive`]), as it is by who checks.
 
-mod critical;
-mod kinematic;
-mod moving;
+mod evidence;
+mod in_time;
 mod packing;
 mod path;
-mod rocking;
-mod shaken;
-mod simulation;
-mod stages;
-mod state;
-mod thrust;
+mod run;
 
-pub use critical::{critical, flip, side};
-pub use kinematic::kinematic;
-pub use moving::moving;
+pub use evidence::flip;
+pub use in_time::{rocking_answer, seen, shaken_answer, simulated, with_simulation};
 pub use packing::packing;
-pub use path::path;
-pub use rocking::{rocking, rocking_answer};
-pub use shaken::{shaken, shaken_answer};
-pub use simulation::{simulated, simulation, with_simulation};
-pub use stages::stages;
-pub use state::state;
-pub use thrust::thrust;
+pub use path::path_evidence;
 
 use crate::{
-    Answer as Answered, Assessment, Claims, Control, Limited, LoadFactor, Proved, Question, Tilt,
-    Tilted, coulomb::DryLoadFactor, doubt, left_out,
+    Answer as Answered, AssessOptions, Assessment, Control, Critical, CriticalOptions,
+    LimitOptions, Limited, Proved, Question, ThrustOptions, TiltOptions, Tilted, doubt, left_out,
+    thrust::Thrust,
 };
-use base::error::{Finding, FindingCode};
-use check::proof::{
-    answer::{Answer, LimitAnswer, LoadFactorAnswer, TiltAnswer, VerdictAnswer},
-    certificate::{Certificate, DryResult},
-    member::lines,
-    result::{CoulombState, Direction, MechanismWords, QuestionKind, ResultFile},
-};
+use base::error::{Finding, FindingCode, InputError, JsonPath};
 use check::{
-    terms::{Bound, Law},
-    verdict::{
-        Evidence, Verdict,
-        evidence::{write_forces, write_members, write_rates},
+    proof::{
+        Derived, Evidence, ResultFile, Run, derive, evidence::{ClosedEvidence, PathEvidence},
+        recompute::JustComputed,
     },
+    terms::Law,
 };
 use model::interface::Model;
 use scene::Scene;
 
-/// Packs a proof.
-fn certificate<T: Claims>(model: &Model, proved: &Proved<T>) -> Certificate {
-    let Evidence { forces, base, rates } = proved.evidence();
-    Certificate {
-        claim: proved.claim(),
-        forces: write_forces(model, forces),
-        members: write_members(model, forces),
-        base: base.map(|f| write_forces(model, f)),
-        base_members: base.map_or_else(Vec::new, |f| write_members(model, f)),
-        rates: write_rates(&model.assembly, rates),
-        verified: proved.findings().holds.clone(),
-    }
-}
-
-/// The result of a question; packings have one of their own
-/// ([`packing`](packing())).
-pub fn of(scene: &Scene, model: &Model, answer: &Answered) -> Option<ResultFile> {
-    Some(match answer {
-        Answered::Assess(a) => assessment(scene, model, a),
-        Answered::Limit(l) => load_factor(scene, model, l),
-        Answered::Moving(m) => return moving(scene, model, m),
-        Answered::Tilt(t) => return tilt(scene, model, t),
-        Answered::Critical(c) => critical(scene, model, c),
-        Answered::Thrust(t) => thrust(scene, model, t),
-        Answered::Path(p) => path(scene, model, p),
-        Answered::Kinematic(k) => return kinematic(scene, model, k),
-        Answered::Stages(s) => stages(scene, model, s),
-        Answered::Simulate(outcome) => simulated(scene, model, None, outcome),
-        Answered::Shake(s) => shaken(scene, model, s),
-        Answered::Rock(r) => rocking(scene, model, r),
-        Answered::State(s) => state(scene, model, s),
-        Answered::Repose(_) => return None,
-    })
+/// The result of a question; packings have one of their own ([`packing`](packing())).
+///
+/// # Errors
+/// The answer is one about a packing, or is none to the question.
+pub fn of(
+    question: &Question,
+    scene: &Scene,
+    model: &Model,
+    answer: &Answered,
+) -> Result<ResultFile, InputError> {
+    let (question, evidence) = evidence::of(question, model, answer)?;
+    made(question, scene, model, (evidence, None), run::of(scene, model, answer))
 }
 
 /// The same, with what weakens it: why it is undecided, and what it would be with contacts that
 /// were left out.
+///
+/// # Errors
+/// As [`of`].
 pub fn of_question(
     question: &Question,
     scene: &Scene,
     model: &Model,
     answer: &Answered,
     control: &Control,
-) -> Option<ResultFile> {
-    let mut file = of(scene, model, answer)?;
-    file.doubt = doubt(answer, model, control);
-    file.left_out_contacts = left_out(question, scene, model, answer, control);
-    Some(file)
+) -> Result<ResultFile, InputError> {
+    let mut run = run::of(scene, model, answer);
+    run.doubt = doubt(answer, model, control);
+    let closed = left_out(question, scene, model, answer, control).and_then(|l| l.closed);
+    let closed = closed.map(|c| ClosedEvidence { law: c.law, answer: c.answer });
+    let (question, evidence) = evidence::of(question, model, answer)?;
+    made(question, scene, model, (evidence, closed), run)
 }
 
-/// The result of `assess`. What its check refused is undecided, and the reasons are warnings.
-pub fn assessment(scene: &Scene, model: &Model, a: &Proved<Assessment>) -> ResultFile {
-    let mut file = ResultFile::new(
-        QuestionKind::Assess,
-        scene,
-        model,
-        Answer::Verdict(verdict_answer(a)),
-        certificate(model, a),
-    );
-    file.mechanism = a.mechanism.as_ref().map(|m| MechanismWords::new(model, m));
-    file.members = lines(model, a.evidence().forces);
-    file.coulomb_state =
-        a.state.as_ref().map(|s| CoulombState { motion: s.motion, steps: s.steps.clone() });
-    file.left_out.clone_from(&a.left_out);
-    file.trace.clone_from(&a.attempts);
-    warn(&mut file, a);
-    file
+/// The same of a path that goes on from points that were known before, each of which is checked.
+///
+/// # Errors
+/// As [`of`], and where a point that was known before does not hold.
+pub fn of_path(
+    question: &Question,
+    scene: &Scene,
+    model: &Model,
+    answer: &Answered,
+    before: Option<PathEvidence>,
+) -> Result<ResultFile, InputError> {
+    let (question, mut evidence) = evidence::of(question, model, answer)?;
+    let (Evidence::Settle(path) | Evidence::Push(path)) = &mut evidence else {
+        return Err(InputError::at(JsonPath::root(), "this question follows no path")
+            .hint("ask `settle` or `push`"));
+    };
+    let known = before.is_some();
+    if let Some(before) = before {
+        *path = before.and(path.clone());
+    }
+    let run = run::of(scene, model, answer);
+    let file = made(question, scene, model, (evidence, None), run)?;
+    let refused = file.run.warnings.iter().find(|w| w.text.starts_with(REFUSED));
+    match refused.filter(|_| known) {
+        Some(w) => Err(InputError::at(JsonPath::root(), format!("what was kept of the path does not hold: {}", w.text))
+            .hint("begin another file")),
+        None => Ok(file),
+    }
+}
+
+/// How warnings begin that are about a result's own check.
+const REFUSED: &str = "refused by its own check: ";
+
+/// The result that follows from evidence that was found and checked this moment. What it rests on
+/// and does not hold is a warning.
+///
+/// # Errors
+/// The evidence is none for the question.
+pub fn made(
+    question: Question,
+    scene: &Scene,
+    model: &Model,
+    evidence: (Evidence, Option<ClosedEvidence>),
+    run: Run,
+) -> Result<ResultFile, InputError> {
+    let refuse = |text: String| InputError::at(JsonPath::root(), text);
+    let derived = derive(question, scene, model, evidence, run, &JustComputed);
+    let Derived { mut file, check } = derived.map_err(refuse)?;
+    let fails = check.parts.into_iter().flat_map(|(title, f)| {
+        f.fails.into_iter().map(move |text| format!("{REFUSED}{title}: {text}"))
+    });
+    file.run.warnings.extend(fails.map(|text| Finding::new(FindingCode::Numerics, text)));
+    Ok(file)
+}
+
+/// The result of `assess`.
+///
+/// # Errors
+/// As [`made`].
+pub fn assessment(
+    scene: &Scene,
+    model: &Model,
+    a: &Proved<Assessment>,
+) -> Result<ResultFile, InputError> {
+    let law = if a.rests_on_statics() { Law::Associative } else { Law::Coulomb };
+    let question = Question::Assess(AssessOptions { law });
+    of(&question, scene, model, &Answered::Assess(a.clone()))
 }
 
 /// The result of `limit`.
-pub fn load_factor(scene: &Scene, model: &Model, limited: &Limited) -> ResultFile {
-    let l = &limited.bound;
-    let dry = limited.dry.as_ref().map(|dry| dry_result(model, dry));
-    let answer = LimitAnswer {
-        load_factor: LoadFactorAnswer::new(bound(l), dry.as_ref()),
-        verdict: limited.dead.as_ref().map(|a| a.verdict),
-        part: l.part.clone(),
-        proof: l.grade(),
+///
+/// # Errors
+/// As [`made`].
+pub fn load_factor(
+    scene: &Scene,
+    model: &Model,
+    limited: &Limited,
+) -> Result<ResultFile, InputError> {
+    let options = LimitOptions { skip_dead: limited.dead.is_none(), ..LimitOptions::default() };
+    of(&Question::Limit(options), scene, model, &Answered::Limit(Box::new(limited.clone())))
+}
+
+/// The result of `tilt`; `model` is the scene level.
+///
+/// # Errors
+/// As [`made`].
+pub fn tilt(scene: &Scene, model: &Model, tilted: &Tilted) -> Result<ResultFile, InputError> {
+    let options = TiltOptions {
+        toward: tilted.directions.iter().map(|t| t.toward.into()).collect(),
+        skip_dead: tilted.level.is_none(),
+        ..TiltOptions::default()
     };
-    let mut file = ResultFile::new(
-        QuestionKind::Limit,
-        scene,
-        model,
-        Answer::Limit(answer),
-        certificate(model, l),
-    );
-    file.mechanism = l.mechanism.as_ref().map(|m| MechanismWords::new(model, m));
-    file.members = lines(model, l.evidence().forces);
-    file.left_out.clone_from(&l.left_out);
-    file.trace.clone_from(&l.attempts);
-    warn(&mut file, l);
-    if let Some(dead) = &limited.dead {
-        file = with_dead_load(file, model, dead);
-    }
-    limited.dry.iter().for_each(|dry| warn(&mut file, dry));
-    file.dry = dry;
-    file
+    of(&Question::Tilt(options), scene, model, &Answered::Tilt(tilted.clone()))
 }
 
-/// The result of `tilt`, one entry per direction; `model` is the scene level. The least tilt is
-/// the answer.
-pub fn tilt(scene: &Scene, model: &Model, tilted: &Tilted) -> Option<ResultFile> {
-    let list = &tilted.directions;
-    let level = tilted.level.as_ref().map(|a| a.verdict);
-    let directions: Vec<Direction> = list.iter().map(|tilt| direction(tilt, level)).collect();
-    let least = (0..directions.len())
-        .min_by(|&i, &j| directions[i].governing().total_cmp(&directions[j].governing()))?;
-    let (tilt, direction) = (&list[least], directions[least].clone());
-    let mut file = ResultFile::new(
-        QuestionKind::Tilt,
-        scene,
-        &tilt.model,
-        direction.answer,
-        direction.certificate,
-    );
-    file.dry = direction.dry;
-    file.mechanism =
-        tilt.load_factor.mechanism.as_ref().map(|m| MechanismWords::new(&tilt.model, m));
-    file.members = lines(&tilt.model, tilt.load_factor.evidence().forces);
-    file.left_out.clone_from(&tilt.load_factor.left_out);
-    file.trace = list.iter().flat_map(|t| t.load_factor.attempts.iter().cloned()).collect();
-    if directions.len() > 1 {
-        file.directions = directions;
-    }
-    for tilt in list {
-        warn(&mut file, &tilt.load_factor);
-        tilt.dry.iter().for_each(|dry| warn(&mut file, &dry.load_factor));
-    }
-    Some(match &tilted.level {
-        Some(level) => with_dead_load(file, model, level),
-        None => file,
-    })
+/// The result of `thrust`.
+///
+/// # Errors
+/// As [`made`].
+pub fn thrust(scene: &Scene, model: &Model, t: &Thrust) -> Result<ResultFile, InputError> {
+    let options = ThrustOptions { range: true, ..ThrustOptions::default() };
+    of(&Question::Thrust(options), scene, model, &Answered::Thrust(Box::new(t.clone())))
 }
 
-/// Adds whether it stands under its dead load alone to a result of `limit`, `tilt` or `thrust`.
-fn with_dead_load(mut file: ResultFile, model: &Model, a: &Proved<Assessment>) -> ResultFile {
-    file.dead_load = Some(Direction {
-        answer: Answer::Verdict(verdict_answer(a)),
-        certificate: certificate(model, a),
-        dry: None,
-    });
-    file.trace.extend(a.attempts.iter().cloned());
-    warn(&mut file, a);
-    file
-}
-
-/// Takes over what the check of an answer took, and why it took the answer back.
-fn warn<T>(file: &mut ResultFile, proved: &Proved<T>) {
-    file.timings.check += proved.seconds();
-    file.warnings.extend(
-        proved
-            .findings()
-            .fails
-            .iter()
-            .map(|f| Finding::new(FindingCode::Numerics, format!("certificate refused: {f}"))),
-    );
-}
-
-/// One direction of a tilt; `level` is the verdict at level, where it was asked.
-fn direction(tilt: &Tilt, level: Option<Verdict>) -> Direction {
-    let dry = tilt.dry.as_ref().map(|d| dry_result(&d.model, &d.load_factor));
-    let tan_tilt = LoadFactorAnswer::new(bound(&tilt.load_factor), dry.as_ref());
-    let answer = TiltAnswer {
-        toward: tilt.toward.into(),
-        tan_tilt,
-        tilt_deg: tan_tilt.degrees(),
-        verdict: level,
-        part: tilt.load_factor.part.clone(),
-        proof: tilt.load_factor.grade(),
+/// The result of `critical`; `model` is that of the scene as it was given.
+///
+/// # Errors
+/// As [`made`].
+pub fn critical(scene: &Scene, model: &Model, c: &Critical) -> Result<ResultFile, InputError> {
+    let options = CriticalOptions {
+        law: c.law,
+        vary: c.range.pointer.clone(),
+        between: [c.range.from, c.range.to],
+        scan: c.range.scan,
     };
-    Direction {
-        answer: Answer::Tilt(answer),
-        certificate: certificate(&tilt.model, &tilt.load_factor),
-        dry,
-    }
-}
-
-fn finite(v: f64) -> Option<f64> {
-    v.is_finite().then_some(v)
-}
-
-fn dry_result(model: &Model, d: &Proved<DryLoadFactor>) -> DryResult {
-    DryResult {
-        found: d.found,
-        value: d.value,
-        rests_at: d.rests_at,
-        moves_at: d.moves_at,
-        part: d.part.clone(),
-        natural_map: finite(d.natural_map),
-        solves: d.solves,
-        certificate: certificate(model, d),
-    }
-}
-
-fn verdict_answer(a: &Proved<Assessment>) -> VerdictAnswer {
-    let law = (a.verdict == Verdict::Stable).then_some(if a.rests_on_statics() {
-        Law::Associative
-    } else {
-        Law::Coulomb
-    });
-    VerdictAnswer {
-        verdict: a.verdict,
-        law,
-        unbalance: a.unbalance,
-        part: a.part.clone(),
-        proof: a.grade(),
-    }
-}
-
-fn bound(l: &LoadFactor) -> Bound {
-    Bound::new(l.outcome, l.value, l.bracket)
+    of(&Question::Critical(options), scene, model, &Answered::Critical(Box::new(c.clone())))
 }

@@ -8,8 +8,8 @@ use crate::{
 use base::error::{Finding, FindingCode, InputError};
 use check::{
     proof::{
-        packing::{PackingDirection, PackingFile, PackingFormat, Removed},
-        result::{QuestionKind, ResultFile, Versions},
+        ResultFile,
+        packing::{PackingDirection, PackingFile, PackingFormat, Removed, Versions},
     },
     terms::Outcome,
     verdict::mechanism::JointMotion,
@@ -52,9 +52,7 @@ pub fn packing(
             Vec::new()
         };
         let one = Tilted { directions: vec![round.tilt.clone()], level: None };
-        let Some(file) = tilt(&without(scene, &round.gone)?, model, &one) else {
-            continue;
-        };
+        let file = tilt(&without(scene, &round.gone)?, model, &one)?;
         let Some(&factor) = file.answer.bound() else { continue };
         let degrees = |v: f64| v.atan().to_degrees();
         let count = |kinds: &[JointMotion]| {
@@ -92,8 +90,7 @@ pub fn packing(
         |&i: &usize, &j: &usize| directions[i].governing().total_cmp(&directions[j].governing());
     let Some(least) = (0..directions.len()).min_by(by_tilt) else { return Ok(None) };
     let file = files.swap_remove(least);
-    debug_assert_eq!(file.question, QuestionKind::Tilt);
-    let mut left_out = file.left_out.clone();
+    let mut left_out = file.run.left_out.clone();
     if !loose.is_empty() {
         left_out.insert(0, format!("{} grains without a contact path to a support", loose.len()));
     }

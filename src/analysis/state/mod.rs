@@ -10,9 +10,8 @@ mod equations;
 mod heap;
 mod incomplete;
 mod newton;
-mod options;
 
-pub use options::StateOptions;
+use check::question::StateOptions;
 
 use super::{
     Assessment, Control, Law, LoadFactor, Outcome, Proved, assess, kinematic::control_of, limit,

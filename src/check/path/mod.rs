@@ -15,6 +15,7 @@ pub mod reaction;
 pub mod saved;
 mod side;
 mod slid;
+mod supports;
 
 use base::tolerance;
 pub use drive::{Demand, Drive, Move, Moves};

@@ -1,21 +1,27 @@
-//! The evidence for one answer as a file holds it: forces and rates by name.
+//! The evidence for one claim about one model as a file holds it: forces and rates by name.
 
 use crate::{
     terms::{Deciding, Found, is_reached},
     verdict::{
-        Forces,
-        claim::Claim,
-        evidence::{BlockRate, ContactForces, MemberForce, read_forces, read_members},
+        Evidence, Forces, Rate,
+        claim::{self, Claim, Findings},
+        evidence::{
+            BlockRate, ContactForces, MemberForce, read_forces, read_members, read_rates,
+            write_forces, write_members, write_rates,
+        },
+        exact::Grade,
     },
 };
 use model::interface::Model;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::sync::{Arc, OnceLock};
 
-/// The evidence for an answer.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+/// The evidence for a claim.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Certificate {
-    /// What is claimed; absent where the question stayed undecided.
+    /// What it proves; absent where it proves nothing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub claim: Option<Claim>,
     /// Static side: forces per contact.
@@ -32,24 +38,62 @@ pub struct Certificate {
     pub base_members: Vec<MemberForce>,
     /// Kinematic side: rates per moving block.
     pub rates: Vec<BlockRate>,
-    /// What the verification found when the answer was given. Not saved, for nobody could tell
-    /// whether it was edited: `check` finds it anew.
-    #[serde(default, skip_serializing)]
-    pub verified: Vec<String>,
+    /// What its check on the scene found, once it was made. Never read from a file.
+    #[serde(skip)]
+    checked: OnceLock<Findings>,
+}
+
+/// Evidence read on the model that it is about, with what it proves there.
+#[derive(Clone, Debug)]
+pub struct Proven {
+    /// What is proved; nothing where nothing is claimed, or the check refuses it.
+    pub claim: Option<Claim>,
+    /// The forces.
+    pub forces: Forces,
+    /// Those without the pre-stress, or at another load factor.
+    pub base: Option<Forces>,
+    /// The rates of all blocks.
+    pub rates: Vec<Rate>,
 }
 
 impl Certificate {
-    /// Nothing is claimed.
-    pub fn none() -> Self {
-        Self {
-            claim: None,
-            forces: Vec::new(),
-            members: Vec::new(),
-            base: None,
-            base_members: Vec::new(),
-            rates: Vec::new(),
-            verified: Vec::new(),
+    /// Evidence with the check that was made of its claim on its own model.
+    pub fn new(
+        model: &Model,
+        claim: Option<Claim>,
+        evidence: Evidence<'_>,
+        findings: &Findings,
+    ) -> Arc<Self> {
+        let Evidence { forces, base, rates } = evidence;
+        let own = Self {
+            claim,
+            forces: write_forces(model, forces),
+            members: write_members(model, forces),
+            base: base.map(|f| write_forces(model, f)),
+            base_members: base.map_or_else(Vec::new, |f| write_members(model, f)),
+            rates: write_rates(&model.assembly, rates),
+            checked: OnceLock::new(),
+        };
+        if claim.is_some() {
+            // Empty so far: nothing is lost.
+            let _ = own.checked.set(findings.clone());
         }
+        Arc::new(own)
+    }
+
+    /// Whether nothing is in it.
+    pub fn is_empty(&self) -> bool {
+        self.claim.is_none()
+            && self.forces.is_empty()
+            && self.members.is_empty()
+            && self.base.is_none()
+            && self.base_members.is_empty()
+            && self.rates.is_empty()
+    }
+
+    /// What the check of its claim found, a line each; nothing before it was made.
+    pub fn verified(&self) -> &[String] {
+        self.checked.get().map_or(&[], |f| &f.holds)
     }
 
     /// The forces that it holds, of contacts and members, and those without the pre-stress or at
@@ -69,34 +113,61 @@ impl Certificate {
         }
         Ok((read(&self.forces, &self.members)?, base))
     }
+
+    /// Reads it on its model and proves its claim there, adding what holds and what fails to `f`.
+    /// Evidence that does not fit the model is nothing.
+    pub fn prove(&self, f: &mut Findings, model: &Model) -> Option<Proven> {
+        let read = || -> Result<_, String> {
+            let (forces, base) = self.read(model)?;
+            Ok((forces, base, read_rates(&model.assembly, &self.rates)?))
+        };
+        let (forces, base, rates) = match read() {
+            Ok(read) => read,
+            Err(e) => {
+                f.fails.push(e);
+                return None;
+            }
+        };
+        let mut claim = None;
+        if let Some(own) = &self.claim {
+            let evidence = Evidence { forces: &forces, base: base.as_ref(), rates: &rates };
+            let found = self.checked.get_or_init(|| claim::verify(model, own, evidence));
+            claim = self.claim.filter(|_| found.proved());
+            f.and(found);
+        }
+        Some(Proven { claim, forces, base, rates })
+    }
+
+    /// How exactly its claim is proved, once it was checked.
+    pub fn grade(&self) -> Option<Grade> {
+        self.checked.get().filter(|f| f.proved()).map(|f| f.grade)
+    }
 }
 
 /// A load factor with dry friction (program D).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct DryResult {
     /// How it was found.
     pub found: Found,
-    /// The part of the scene that decides, where it has several.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// The part of the scene that moves, where it has several.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub part: Option<Deciding>,
     /// The value, where found.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub value: Option<f64>,
     /// The greatest load factor at which the state under dry friction was seen at rest, having
     /// rested from the dead load on. Computed, not proved.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub rests_at: Option<f64>,
     /// The least load factor at which it was seen to move.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub moves_at: Option<f64>,
     /// How far forces and mechanism are from Coulomb's law.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub natural_map: Option<f64>,
-    /// Convex programs solved for it.
-    pub solves: usize,
     /// The evidence.
-    pub certificate: Certificate,
+    #[serde(skip)]
+    pub certificate: Arc<Certificate>,
 }
 
 impl DryResult {

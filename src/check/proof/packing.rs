@@ -1,7 +1,6 @@
 //! The angle of maximum stability of a packing as a result: every round verified, names instead of
 //! indices.
 
-use super::result::Versions;
 use crate::{
     terms::{Deciding, Doubt, Found, Outcome},
     verdict::fabric::Fabric,
@@ -122,5 +121,18 @@ impl PackingDirection {
             return f64::NEG_INFINITY;
         }
         self.dry_deg.or(self.tilt_deg).unwrap_or(f64::NEG_INFINITY)
+    }
+}
+
+/// Versions of what made a result.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
+pub struct Versions {
+    /// This program.
+    pub voussoir: String,
+}
+
+impl Default for Versions {
+    fn default() -> Self {
+        Self { voussoir: env!("CARGO_PKG_VERSION").to_string() }
     }
 }

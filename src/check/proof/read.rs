@@ -1,6 +1,6 @@
-//! JSON text → [`ResultFile`], with errors that name file, line and column.
+//! JSON text → [`Saved`], with errors that name file, line and column.
 
-use super::ResultFile;
+use super::result::Saved;
 use base::error::{InputError, JsonPath};
 use scene::Source;
 use serde::Deserialize;
@@ -27,12 +27,12 @@ fn version(text: &str) -> Option<String> {
 pub fn read_str(
     name: impl Into<String>,
     text: impl Into<String>,
-) -> Result<ResultFile, InputError> {
+) -> Result<Saved, InputError> {
     let source = Source::new(name, text);
-    if let Some(version) = version(&source.text).filter(|v| v != "2") {
+    if let Some(version) = version(&source.text).filter(|v| v != "3") {
         let message =
-            format!("this is a result of version {version}; this program reads version 2");
-        let hint = "ask the question again with --save: the scene is in the file under scene.input";
+            format!("this is a result of version {version}; this program reads version 3");
+        let hint = "ask the question again with --save: the scene is in the file under \"scene\" (before version 3 under scene.input)";
         return Err(InputError {
             file: Some(source.name),
             ..InputError::at(JsonPath::root(), message).hint(hint)

@@ -1,7 +1,8 @@
 //! What a check computes again, because no theorem says it.
 
-use super::{result::ResultFile, rocking::RockingAnswer, shaken::ShakenAnswer};
+use super::{rocking::RockingAnswer, shaken::ShakenAnswer, simulation::Seen};
 use crate::{
+    question::Question,
     rocking::RockOptions,
     terms::{ClosedAnswer, Law, Order, StateMotion},
     verdict::Verdict,
@@ -13,6 +14,11 @@ use scene::Scene;
 /// What only a solver or an engine can do again. Who has neither ([`Nothing`]) answers `None` to
 /// everything here, and what was to be known stays unchecked.
 pub trait Recompute {
+    /// Whether all of it was computed this moment, by who asks: nothing is done again.
+    fn just_computed(&self) -> bool {
+        false
+    }
+
     /// What the scene does under its dead load with dry friction.
     fn motion(&self, _model: &Model) -> Option<StateMotion> {
         None
@@ -35,11 +41,21 @@ pub trait Recompute {
         None
     }
 
-    /// The question of a result asked again with contacts closed that were left out: the law by
+    /// What the engine does, run again.
+    fn simulated(
+        &self,
+        _said: &Seen,
+        _scene: &Scene,
+        _model: &Model,
+    ) -> Option<Result<Seen, InputError>> {
+        None
+    }
+
+    /// A question asked again with contacts closed that were left out: the law by
     /// which joints slide there, and the answer, where it is asked at all.
     fn closed(
         &self,
-        _file: &ResultFile,
+        _question: &Question,
         _law: Law,
         _scene: &Scene,
         _model: &Model,
@@ -84,3 +100,13 @@ pub trait Recompute {
 pub struct Nothing;
 
 impl Recompute for Nothing {}
+
+/// Computes nothing again, for it was computed this moment: who asks.
+#[derive(Clone, Copy, Debug)]
+pub struct JustComputed;
+
+impl Recompute for JustComputed {
+    fn just_computed(&self) -> bool {
+        true
+    }
+}

@@ -1,355 +1,253 @@
-//! The result file (`"format": "voussoir-result/2"`): the question, the answer and its evidence,
-//! complete enough to be verified from the scene: what is proved without a solver, states under dry
-//! friction by computing them again.
+//! The result file (`"format": "voussoir-result/3"`): the question, the scene and the evidence, from
+//! which the answer is derived, the answer as it was derived, and what it took.
 
 use super::{
     answer::Answer,
-    certificate::{Certificate, DryResult},
-    critical::CriticalResult,
-    member::{MemberLine, MemberWords},
-    path::PathResult,
-    rocking::RockingResult,
-    shaken::ShakenResult,
-    simulation::Simulation,
-    stages::StagesResult,
-    state::StateResult,
-    thrust::ThrustResult,
+    evidence::{ClosedEvidence, Evidence},
+    simulation::FrameResult,
+    told::{Counts, Told},
     work::Work,
 };
 use crate::{
-    terms::{Attempt, Doubt, Found, LeftOutContacts, Outcome, StateMotion, StateStep},
-    verdict::mechanism::{JointMotion, Mechanism},
+    question::Question,
+    terms::{Attempt, Doubt, StateStep},
 };
 use base::error::Finding;
-use model::interface::{Model, Timings};
+use model::interface::Timings;
 use scene::Scene;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
+use std::ops::Deref;
 
 /// The version of the format.
-#[derive(
-    Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema,
-)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum ResultFormat {
-    /// Version 2.
+    /// Version 3.
     #[default]
-    #[serde(rename = "voussoir-result/2")]
-    V2,
+    #[serde(rename = "voussoir-result/3")]
+    V3,
 }
 
-/// A saved answer.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(deny_unknown_fields)]
+/// A result: what was asked, what is told, and from what it follows. Made by
+/// [`derive`](super::derive::derive) alone.
+#[derive(Clone, Debug)]
 pub struct ResultFile {
-    /// The format and its version.
-    pub format: ResultFormat,
     /// What was asked.
-    pub question: QuestionKind,
+    pub question: Question,
     /// The scene.
     pub scene: SceneSummary,
-    /// The answer to the question; of a tilt in several directions, of a train on its way the least.
-    pub answer: Answer,
-    /// The evidence for `answer`.
-    pub certificate: Certificate,
-    /// Tilt and kinematic: every direction asked for. Moving: every position of the train.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub directions: Vec<Direction>,
-    /// Limit, moving, tilt and kinematic, where asked as well: whether it stands under its dead load alone.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub dead_load: Option<Direction>,
-    /// Limit, the least position of a train, the least direction of a tilt and the worst of
-    /// `kinematic`: the load factor with dry friction.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub dry: Option<DryResult>,
-    /// The state under dry friction, where it had to be computed.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub coulomb_state: Option<CoulombState>,
-    /// Critical: the flips with the verdicts on both sides of each.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub critical: Option<CriticalResult>,
-    /// Thrust: the evidence for both ends and the line of thrust.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub thrust: Option<ThrustResult>,
-    /// Settle, push and kinematic: the curve, every point with its evidence.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub path: Option<PathResult>,
-    /// Kinematic: the curve with members, every point with its evidence.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub path_with_members: Option<PathResult>,
-    /// Stages: every one with its evidence.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub stages: Option<StagesResult>,
-    /// State: displacements, from which everything follows.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub state: Option<StateResult>,
-    /// Rock: the evidence against the direction.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub rocking: Option<RockingResult>,
-    /// Shake: where every block was, where times were asked for.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub shaken: Option<ShakenResult>,
-    /// What happened in time, where it was simulated.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub simulation: Option<Simulation>,
-    /// The mechanism in words.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub mechanism: Option<MechanismWords>,
-    /// Contacts that were left out although blocks overlap or nearly touch, where there are such, and
-    /// the answer with them closed.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub left_out_contacts: Option<LeftOutContacts>,
+    /// What is told.
+    pub(super) told: Told,
+    /// What it follows from.
+    pub(super) evidence: Evidence,
+    /// The answer with contacts closed that were left out, where it was asked.
+    pub(super) closed: Option<ClosedEvidence>,
+    /// What it took.
+    pub run: Run,
+}
+
+/// The scene that a result is about.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneSummary {
+    /// Its name.
+    pub name: String,
+    /// How much there is of it.
+    pub counts: Counts,
+    /// The scene itself.
+    pub input: Scene,
+}
+
+/// How an answer came about. Nothing in it is a claim.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Run {
+    /// The program's version.
+    pub voussoir: String,
     /// Why the answer is undecided, where it is.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub doubt: Option<Doubt>,
-    /// The forces in the members of the scene, of the forces that prove the answer.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub members: Vec<MemberLine>,
-    /// What the scene did not need.
-    pub left_out: Vec<String>,
-    /// What the user should know.
+    /// Why something is not in the answer, by what is missing.
+    #[serde(skip_serializing_if = "Why::is_empty")]
+    pub why: Why,
+    /// What the user should know of how it came about.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<Finding>,
+    /// What the scene did not need.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub left_out: Vec<String>,
     /// Seconds per stage.
     pub timings: Timings,
     /// What it cost, beside the seconds.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub work: Option<Work>,
     /// Every attempt at a program.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub trace: Vec<Attempt>,
-    /// Versions.
-    pub versions: Versions,
+    /// The continuation of the state under dry friction.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub state_steps: Vec<StateStep>,
+    /// Convex programs of load factors with dry friction.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub dry_solves: usize,
+    /// Steps of Newton's method.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub newton_steps: usize,
+    /// Poses through which a path was followed beside its points.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub between: usize,
+    /// Scenes that were asked about on the way.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub scenes: usize,
+    /// Where every block was at the times asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub frames: Vec<FrameResult>,
+}
+
+/// Why something is not in an answer.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Why {
+    /// A path was not followed any further.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub path: Option<String>,
+    /// There is no curve.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub no_curve: Option<String>,
+    /// There is no curve with members.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub no_curve_with_members: Option<String>,
+    /// There is no geometric safety factor.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub without_factor: Option<String>,
+    /// Stages are undecided, by their names.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub stages: Vec<(String, Doubt)>,
+    /// Values of a range make no scene.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub no_scene: Vec<(f64, String)>,
+    /// What is said of a range.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub range: Vec<String>,
+}
+
+impl Why {
+    fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+impl Run {
+    /// Of this program.
+    pub fn new(timings: Timings) -> Self {
+        Self { voussoir: env!("CARGO_PKG_VERSION").to_string(), timings, ..Self::default() }
+    }
 }
 
 impl ResultFile {
+    /// What it follows from.
+    pub fn evidence(&self) -> &Evidence {
+        &self.evidence
+    }
+
+    /// The answer with contacts closed that were left out, where it was asked.
+    pub fn closed(&self) -> Option<&ClosedEvidence> {
+        self.closed.as_ref()
+    }
+
+    /// Puts beside the answer why something is not in it.
+    pub(super) fn add_why(&mut self) {
+        let why = self.run.why.clone();
+        match &mut self.told.answer {
+            Answer::Path(a) if a.why.is_none() => a.why = why.path,
+            Answer::Kinematic(a) => {
+                (a.no_curve, a.no_curve_with_members) = (why.no_curve, why.no_curve_with_members);
+                if let Some(curve) = &mut a.curve {
+                    curve.why = why.path;
+                }
+            }
+            _ => {}
+        }
+        if let Some(thrust) = &mut self.told.thrust {
+            thrust.without_factor = why.without_factor;
+        }
+        for stage in self.told.stages.iter_mut().flat_map(|s| &mut s.list) {
+            let own = why.stages.iter().find(|(name, _)| *name == stage.name);
+            stage.doubt = own.map(|(_, doubt)| doubt.clone());
+        }
+    }
+
+    /// What the user should know: of the scene, and of how the answer came about.
+    pub fn warnings(&self) -> impl Iterator<Item = &Finding> {
+        self.told.scene_warnings.iter().chain(&self.run.warnings)
+    }
+
     /// The result as a JSON value. Written here once, so that no other crate writes it again for
     /// itself.
     ///
     /// # Errors
     /// None that a result can bring about.
-    pub fn to_value(&self) -> Result<serde_json::Value, serde_json::Error> {
-        serde_json::to_value(self)
-    }
-
-    /// A result that holds an answer with its evidence, and nothing else yet.
-    pub fn new(
-        question: QuestionKind,
-        scene: &Scene,
-        model: &Model,
-        answer: Answer,
-        certificate: Certificate,
-    ) -> Self {
-        Self {
-            format: ResultFormat::V2,
-            question,
-            scene: SceneSummary {
-                name: scene.name.clone(),
-                blocks: model.assembly.blocks.len(),
-                supports: model.assembly.blocks.iter().filter(|b| b.support).count(),
-                interfaces: model.interfaces.list.len(),
-                contact_points: model.contact_points(),
-                members: model.interfaces.members.len(),
-                input: scene.clone(),
-            },
-            answer,
-            certificate,
-            directions: Vec::new(),
-            dead_load: None,
-            dry: None,
-            coulomb_state: None,
-            critical: None,
-            thrust: None,
-            path: None,
-            path_with_members: None,
-            stages: None,
-            state: None,
-            rocking: None,
-            shaken: None,
-            simulation: None,
-            mechanism: None,
-            members: Vec::new(),
-            left_out_contacts: model
-                .interfaces
-                .left_out
-                .map(|contacts| LeftOutContacts { contacts, closed: None }),
-            doubt: None,
-            left_out: Vec::new(),
-            warnings: model.findings().cloned().collect(),
-            timings: model.timings,
-            work: None,
-            trace: Vec::new(),
-            versions: Versions::default(),
-        }
-    }
-}
-
-/// What was asked.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum QuestionKind {
-    /// Does it stand?
-    Assess,
-    /// How large may the live load grow?
-    Limit,
-    /// How heavy may the train be that drives over it?
-    Moving,
-    /// At what tilt does it fall?
-    Tilt,
-    /// At what value of a number in the scene does the verdict flip?
-    Critical,
-    /// How hard does it push a support?
-    Thrust,
-    /// What happens in time, and does it agree with the verdict?
-    Simulate,
-    /// How far may supports move until it falls?
-    Settle,
-    /// How does the load factor fall as it moves?
-    Push,
-    /// Under an earthquake: at what acceleration does it start to move, and what then?
-    Kinematic,
-    /// Does every stage of its construction stand?
-    Stages,
-    /// What follows from the stiffness of its joints?
-    State,
-    /// What does its mechanism do on ground that moves?
-    Rock,
-    /// What do all its blocks do on ground that moves?
-    Shake,
-}
-
-/// The scene a result is about.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct SceneSummary {
-    /// Its name.
-    pub name: String,
-    /// Number of blocks, supports included.
-    pub blocks: usize,
-    /// Number of supports.
-    pub supports: usize,
-    /// Number of interfaces.
-    pub interfaces: usize,
-    /// Number of contact points.
-    pub contact_points: usize,
-    /// Number of members: ties, struts, soil, …
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub members: usize,
-    /// The scene itself, so that the result can be verified on its own.
-    pub input: Scene,
-}
-
-/// An answer beside the main one, with the evidence for it: one direction of a tilt, one position of
-/// a train, or the dead load alone.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Direction {
-    /// The answer.
-    pub answer: Answer,
-    /// The evidence for it.
-    pub certificate: Certificate,
-    /// A direction of a tilt or an earthquake, a position of a train: its load factor with dry friction.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub dry: Option<DryResult>,
-}
-
-impl Direction {
-    /// The tilt that counts, degrees: with dry friction where that is known, else the bound. A
-    /// direction without an answer governs: it must not hide behind the others.
-    pub fn governing(&self) -> f64 {
-        if self.dry.as_ref().is_some_and(|d| d.found == Found::NotAtRest) {
-            return f64::NEG_INFINITY;
-        }
-        let dry = self.dry.as_ref().and_then(|d| d.value).map(|v| v.atan().to_degrees());
-        let bound = self.answer.bound().and_then(|b| match b.status {
-            Outcome::Unbounded => Some(90.0),
-            _ => b.value.map(|v| v.atan().to_degrees()),
+    pub fn to_value(&self) -> Result<Value, serde_json::Error> {
+        let mut value = json!({
+            "format": ResultFormat::V3,
+            "question": self.question,
+            "answer": serde_json::to_value(&self.told)?,
+            "evidence": serde_json::to_value(&self.evidence)?,
+            "scene": serde_json::to_value(&self.scene.input)?,
+            "run": serde_json::to_value(&self.run)?,
         });
-        dry.or(bound).unwrap_or(f64::NEG_INFINITY)
-    }
-}
-
-/// The state under dry friction (program C). Where it rests it is computed, not proved.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct CoulombState {
-    /// What it does.
-    pub motion: StateMotion,
-    /// The continuation in ε.
-    pub steps: Vec<StateStep>,
-}
-
-/// A mechanism with names.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct MechanismWords {
-    /// Moving blocks, the fastest first.
-    pub moving: Vec<String>,
-    /// Moving joints.
-    pub joints: Vec<JointWords>,
-    /// Members that yield, go slack or slide.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub members: Vec<MemberWords>,
-}
-
-/// A joint of a mechanism with names.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct JointWords {
-    /// The blocks.
-    pub between: [String; 2],
-    /// What it does.
-    pub motion: JointMotion,
-    /// Where, m.
-    pub at: [f64; 3],
-}
-
-/// Versions of what made a result.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
-pub struct Versions {
-    /// This program.
-    pub voussoir: String,
-}
-
-impl Default for Versions {
-    fn default() -> Self {
-        Self { voussoir: env!("CARGO_PKG_VERSION").to_string() }
-    }
-}
-
-impl MechanismWords {
-    /// The words for a mechanism.
-    pub fn new(model: &Model, m: &Mechanism) -> Self {
-        let id = |i: usize| model.assembly.blocks[i].id.clone();
-        Self {
-            moving: m.moving.iter().map(|&i| id(i)).collect(),
-            joints: m
-                .joints
-                .iter()
-                .map(|j| {
-                    let face = &model.interfaces.list[j.interface];
-                    JointWords {
-                        between: [id(face.a), id(face.b)],
-                        motion: j.motion,
-                        at: j.at.into(),
-                    }
-                })
-                .collect(),
-            members: m
-                .members
-                .iter()
-                .map(|m| MemberWords {
-                    member: model.interfaces.members[m.member].id.clone(),
-                    motion: m.motion,
-                })
-                .collect(),
+        if let (Some(closed), Some(map)) = (&self.closed, value.as_object_mut()) {
+            map.insert("closed".into(), serde_json::to_value(closed)?);
         }
+        Ok(value)
     }
+}
+
+impl Serialize for ResultFile {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.to_value().map_err(serde::ser::Error::custom)?.serialize(serializer)
+    }
+}
+
+impl Deref for ResultFile {
+    type Target = Told;
+
+    fn deref(&self) -> &Told {
+        &self.told
+    }
+}
+
+/// A result as it stands in a file: the answer in it is only compared with what is derived.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Saved {
+    /// The format and its version.
+    #[serde(rename = "format")]
+    pub _format: ResultFormat,
+    /// What was asked.
+    pub question: Question,
+    /// The scene, so that the result can be verified on its own.
+    pub scene: Scene,
+    /// What the answer follows from.
+    pub evidence: Evidence,
+    /// The answer with contacts closed that were left out. Computed.
+    #[serde(default)]
+    pub closed: Option<ClosedEvidence>,
+    /// What is told ([`Told`]).
+    #[schemars(with = "Told")]
+    pub answer: Value,
+    /// What it took.
+    #[serde(default)]
+    pub run: Run,
+}
+
+/// The JSON Schema (draft 2020-12) of a result file.
+pub fn schema() -> Value {
+    let mut schema = schemars::schema_for!(Saved);
+    schema.insert("title".into(), "voussoir result, version 3".into());
+    schema.to_value()
 }
 
 fn is_zero(n: &usize) -> bool {
     *n == 0
-}
-
-/// The JSON Schema (draft 2020-12) of a result file.
-pub fn schema() -> serde_json::Value {
-    let mut schema = schemars::schema_for!(ResultFile);
-    schema.insert("title".into(), "voussoir result, version 2".into());
-    schema.to_value()
 }

@@ -1,13 +1,20 @@
 //! A simulation in a result: names instead of indices, and what it says beside the verdict.
 
-use crate::terms::{Agreement, Fate, Run};
-use base::error::Finding;
+use crate::{
+    question::SimulateOptions,
+    terms::{Agreement, Fate, ForceAgreement, Run, agree},
+    verdict::Verdict,
+};
+use base::error::{Finding, FindingCode};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What happened in time. Observed, not proved.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+/// What was seen in the engine. Computed: who asks it again sees the same.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Simulation {
+pub struct Seen {
+    /// How it was run.
+    pub asked: SimulateOptions,
     /// What became of it.
     pub fate: Fate,
     /// When the first block had fallen, s.
@@ -15,8 +22,36 @@ pub struct Simulation {
     pub collapse: Option<f64>,
     /// The runs, the decisive one last.
     pub runs: Vec<Run>,
-    /// Beside the verdict, where there is one.
+    /// Beside a verdict that it falls: cosine between the first motion and the mechanism.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub motion: Option<f64>,
+    /// Beside a verdict that it stands: the forces between blocks, simulated against computed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub forces: Option<ForceAgreement>,
+    /// The first motion, the blocks that moved farthest first; blocks at rest are left out.
+    pub first_motion: Vec<BlockMotion>,
+    /// Contact forces at the end.
+    pub contacts: Vec<PairForce>,
+    /// What is left when the contact forces on the supports and all loads are added up, over the
+    /// loads: 0 at rest.
+    pub reaction_error: f64,
+    /// What the simulation could not respect.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub findings: Vec<Finding>,
+}
+
+/// What happened in time, as an answer tells it. Observed, not proved.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct Simulation {
+    /// What became of it.
+    pub fate: Fate,
+    /// When the first block had fallen, s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub collapse: Option<f64>,
+    /// The runs, the decisive one last.
+    pub runs: Vec<Run>,
+    /// Beside the verdict, where there is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub agreement: Option<Agreement>,
     /// The first motion, the blocks that moved farthest first; blocks at rest are left out.
     pub first_motion: Vec<BlockMotion>,
@@ -25,16 +60,37 @@ pub struct Simulation {
     /// What is left when the contact forces on the supports and all loads are added up, over the
     /// loads: 0 at rest.
     pub reaction_error: f64,
-    /// Where every block was at the times asked for.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub frames: Vec<FrameResult>,
     /// What the simulation could not respect.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub findings: Vec<Finding>,
 }
 
+impl Seen {
+    /// What is told of it, beside a verdict where there is one.
+    pub fn told(&self, verdict: Option<Verdict>) -> Simulation {
+        let left_out = self.findings.iter().any(|f| f.code == FindingCode::LeftOut);
+        let agreement = verdict.map(|verdict| Agreement {
+            verdict,
+            fate: self.fate,
+            agrees: agree(verdict, self.fate, left_out),
+            motion: self.motion,
+            forces: self.forces.clone(),
+        });
+        Simulation {
+            fate: self.fate,
+            collapse: self.collapse,
+            runs: self.runs.clone(),
+            agreement,
+            first_motion: self.first_motion.clone(),
+            contacts: self.contacts.clone(),
+            reaction_error: self.reaction_error,
+            findings: self.findings.clone(),
+        }
+    }
+}
+
 /// How a block began to move.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BlockMotion {
     /// The block.
@@ -46,7 +102,7 @@ pub struct BlockMotion {
 }
 
 /// The contact force between two blocks.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PairForce {
     /// The blocks.
@@ -56,7 +112,7 @@ pub struct PairForce {
 }
 
 /// One time.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FrameResult {
     /// s.

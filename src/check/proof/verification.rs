@@ -1,6 +1,6 @@
 //! What the verification of a result found (`"format": "voussoir-verification/1"`), for programs.
 
-use super::verify::Verification;
+use super::derive::Verification;
 use crate::verdict::exact::Grade;
 use base::error::Finding;
 use serde::Serialize;

@@ -32,23 +32,17 @@ impl Work {
     pub fn of(file: &ResultFile, model: &Model) -> Self {
         let points = model.contact_points();
         let largest =
-            file.trace.iter().map(|a| a.size).max_by_key(|size| size[0]).unwrap_or_default();
+            file.run.trace.iter().map(|a| a.size).max_by_key(|size| size[0]).unwrap_or_default();
         let ends = file.answer.bound().and_then(|l| Some((l.lower?, l.upper?)));
         let bracket = ends
             .or(file.answer.as_verdict().map(|a| (a.unbalance.lower, a.unbalance.upper)))
             .map(|(lower, upper)| upper - lower);
-        let states =
-            file.coulomb_state.iter().flat_map(|s| &s.steps).map(|s| s.solves).sum::<usize>();
-        let dry = file
-            .dry
-            .iter()
-            .chain(file.directions.iter().filter_map(|d| d.dry.as_ref()))
-            .map(|d| d.solves)
-            .sum::<usize>();
+        let states = file.run.state_steps.iter().map(|s| s.solves).sum::<usize>();
+        let dry = file.run.dry_solves;
         Self {
-            attempts: file.trace.len(),
+            attempts: file.run.trace.len(),
             fixed_points: states + dry,
-            iterations: file.trace.iter().map(|a| a.iterations).sum(),
+            iterations: file.run.trace.iter().map(|a| a.iterations).sum(),
             full: [3 * points, 6 * model.assembly.free().count()],
             largest,
             bracket: bracket.filter(|b| b.is_finite()),

@@ -70,6 +70,7 @@ pub struct Run {
     pub relative: f64,
     /// Largest kinetic energy of a block at the end over its m g L.
     pub energy: f64,
-    /// Seconds of computing.
+    /// Seconds of computing; not saved.
+    #[serde(skip)]
     pub seconds: f64,
 }

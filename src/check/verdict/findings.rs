@@ -33,6 +33,15 @@ impl Findings {
         self.require(ok, format!("{text} ({grade})"));
     }
 
+    /// Adds what another check found.
+    pub fn and(&mut self, other: &Self) {
+        self.holds.extend_from_slice(&other.holds);
+        self.fails.extend_from_slice(&other.fails);
+        self.unchecked.extend_from_slice(&other.unchecked);
+        self.grade = self.grade.and(other.grade);
+        self.computed |= other.computed;
+    }
+
     /// Whether the claim is proved.
     pub fn proved(&self) -> bool {
         self.fails.is_empty() && !self.holds.is_empty()

@@ -9,12 +9,12 @@ use crate::cli::{
 };
 use voussoir::{
     interface::prepare,
-    proof::{ResultFile, VerificationFile, verify},
+    proof::{Saved, VerificationFile, verify},
     report::{self, text, view::View},
 };
 
 pub fn run(
-    file: &ResultFile,
+    saved: &Saved,
     args: &Check,
     pictures: &Pictures,
     terminal: &Terminal,
@@ -22,25 +22,29 @@ pub fn run(
     let other =
         args.scene.as_deref().map(|path| input::scene(path, args.outside.reach())).transpose()?;
     terminal::notes(other.iter().flat_map(|(.., said)| said));
-    let scene = other.as_ref().map_or(&file.scene.input, |(scene, ..)| scene);
+    let scene = other.as_ref().map_or(&saved.scene, |(scene, ..)| scene);
     let located = |e: voussoir::error::InputError| match &other {
         Some((_, source, _)) => source.located(e),
         None => e,
     };
-    let verification = verify(file, scene).map_err(located)?;
+    let verified = verify(saved, scene).map_err(located)?;
     // What is refuted is not drawn.
-    if pictures.wanted() && !verification.refuted() {
+    if let Some(file) = verified.file.as_ref().filter(|_| pictures.wanted() && !verified.refuted())
+    {
         pictures.write(&View::new(&prepare(scene).map_err(located)?, file, Vec::new())?)?;
     }
     if args.json {
-        terminal::print(&report::json::pretty(&VerificationFile::new(
-            &file.scene.name,
-            &verification,
-        ))?)?;
-    } else if !pictures.printed() || verification.refuted() {
-        terminal.page(&text::verification(file, &verification, terminal.layout(&args.file)))?;
+        terminal::print(&report::json::pretty(&VerificationFile::new(&scene.name, &verified))?)?;
+    } else if !pictures.printed() || verified.refuted() {
+        let file = verified.file.as_ref();
+        terminal.page(&text::verification(
+            &scene.name,
+            file,
+            &verified,
+            terminal.layout(&args.file),
+        ))?;
     }
-    Ok(match (verification.refuted(), verification.claimed) {
+    Ok(match (verified.refuted(), verified.proved()) {
         (true, _) => Exit::No,
         (false, true) => Exit::Yes,
         (false, false) => Exit::Undecided,

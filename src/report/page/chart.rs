@@ -111,7 +111,7 @@ pub fn attempts(file: &ResultFile) -> Option<Chart> {
     let mut spent = 0.0;
     // Attempts that follow each other at the same question share a line.
     let mut last: Option<&str> = None;
-    for a in &file.trace {
+    for a in &file.run.trace {
         let about = a.program.split(" in ").next().unwrap_or(&a.program);
         if last != Some(about) || a.force_unit.is_nan() {
             spent = 0.0;
@@ -134,9 +134,9 @@ pub fn attempts(file: &ResultFile) -> Option<Chart> {
         line.hints.push(hint(a, spent, width));
     }
     let states: Vec<_> = file
-        .coulomb_state
+        .run
+        .state_steps
         .iter()
-        .flat_map(|s| &s.steps)
         .filter(|s| s.acceleration > 0.0 && s.seconds > 0.0)
         .collect();
     if !states.is_empty() {

@@ -1,9 +1,10 @@
 //! What was asked, and what the number of the answer means.
 
 use base::number::{bracketed, count, ends, fixed, short};
+use check::question::{QuestionKind as Kind};
 use check::{
     proof::{
-        result::{QuestionKind as Kind, ResultFile},
+        result::ResultFile,
         state::StateAnswer,
     },
     terms::Law,
@@ -13,7 +14,7 @@ use check::{
 pub(super) fn facts(file: &ResultFile) -> Vec<[String; 2]> {
     let (question, unit) = match file.stages.as_ref().and_then(|s| s.order.as_ref()) {
         Some(order) => ordered(order.given),
-        None => words(file.question),
+        None => words(file.question.kind()),
     };
     let mut list: Vec<[String; 2]> = vec![["question".into(), question.into()]];
     if let Some(value) = value(file) {
@@ -25,7 +26,7 @@ pub(super) fn facts(file: &ResultFile) -> Vec<[String; 2]> {
     if let Some(law) = law(file) {
         list.push(["sliding".into(), law.into()]);
     }
-    let s = &file.scene;
+    let s = &file.scene.counts;
     list.push([
         "of".into(),
         format!(
@@ -46,7 +47,7 @@ fn value(file: &ResultFile) -> Option<String> {
     }
     let said = file.answer.load_factor()?;
     let (value, lower, upper) = (said.value?, said.lower?, said.upper?);
-    let (text, unit) = match file.question {
+    let (text, unit) = match file.question.kind() {
         Kind::Tilt => {
             let [v, l, u] = [value, lower, upper].map(|t| t.atan().to_degrees());
             let [low, high] = ends(v, l, u);
@@ -57,7 +58,7 @@ fn value(file: &ResultFile) -> Option<String> {
             (format!("{} (between {low} and {high})", bracketed(value, lower, upper)), "")
         }
     };
-    let name = match file.question {
+    let name = match file.question.kind() {
         Kind::Tilt => "tilt",
         Kind::Kinematic => "α0",
         _ => "λ",
@@ -121,7 +122,7 @@ fn words(kind: Kind) -> (&'static str, &'static str) {
             "λ multiplies the axle loads of the train at its worst position; weights, fill and dead \
              loads stay as they are.",
         ),
-        Kind::Tilt => (
+        Kind::Tilt | Kind::Repose => (
             "At what inclination of the ground does it fall?",
             "Gravity keeps its size and is turned by this angle towards the direction given; weights \
              and dead loads turn with it.",

@@ -3,7 +3,7 @@
 use super::{Part, Record, Section};
 use crate::heaps::{HeapResult, ReposeFile};
 use base::number::{count, short};
-use check::{proof::result::Versions, terms::Outcome};
+use check::{proof::packing::Versions, terms::Outcome};
 use scene::ProtocolKind;
 use serde_json::Value;
 

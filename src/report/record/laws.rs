@@ -90,7 +90,7 @@ pub(super) fn tolerances(file: &ResultFile, model: &Model) -> Vec<Section> {
         facts.push(["wider than usual".into(), words]);
     }
     let mut parts = vec![Part::Facts(facts)];
-    let rows: Vec<Vec<String>> = file.warnings.iter().map(|f| vec![f.text.clone()]).collect();
+    let rows: Vec<Vec<String>> = file.warnings().map(|f| vec![f.text.clone()]).collect();
     parts.push(if rows.is_empty() {
         Part::Text("Findings in the scene: none.".into())
     } else {

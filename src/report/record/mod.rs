@@ -19,7 +19,8 @@ use section::{listed, percent, quantity};
 
 use super::view::View;
 use crate::drawing::{self, Aspect};
-use check::proof::result::{QuestionKind, ResultFile};
+use check::question::QuestionKind;
+use check::proof::result::ResultFile;
 use model::interface::Model;
 
 /// A record, section by section.
@@ -50,7 +51,7 @@ impl Record {
     /// The record of a result; `model` is that of its scene, `view` what there is to see of it.
     pub fn new(file: &ResultFile, model: &Model, view: &View, from: Aspect, at: &Origin) -> Self {
         // Verdicts and tilts are about dead loads alone.
-        let idle = matches!(file.question, QuestionKind::Assess | QuestionKind::Tilt);
+        let idle = matches!(file.question.kind(), QuestionKind::Assess | QuestionKind::Tilt);
         let mut record = Self::of_scene(model, view, from, idle);
         let mut asked = asked::facts(file);
         asked.extend(at.facts());

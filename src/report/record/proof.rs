@@ -18,10 +18,10 @@ pub(super) fn sections(file: &ResultFile) -> Vec<Section> {
         };
         facts.push(["proved".into(), words]);
     }
-    facts.extend(file.certificate.verified.iter().map(|v| ["certificate".into(), v.clone()]));
+    facts.extend(file.certificate.verified().iter().map(|v| ["certificate".into(), v.clone()]));
     if let Some(thrust) = &file.thrust {
         for (name, certificate) in [("least", &thrust.least), ("greatest", &thrust.greatest)] {
-            facts.extend(certificate.verified.iter().map(|v| [name.into(), v.clone()]));
+            facts.extend(certificate.verified().iter().map(|v| [name.into(), v.clone()]));
         }
     }
     // Each of these has a certificate of its own, which the answer in words tells.
@@ -29,7 +29,7 @@ pub(super) fn sections(file: &ResultFile) -> Vec<Section> {
         (file.critical.is_some(), "a verdict with its certificate on either side of every flip"),
         (file.path.is_some(), "a certificate at every point of the curve"),
         (file.stages.is_some(), "a certificate for every stage"),
-        (file.rocking.is_some(), "a certificate for the mechanism; its motion is computed"),
+        (file.against.is_some(), "a certificate for the mechanism; its motion is computed"),
     ] {
         if there {
             facts.push(["certificates".into(), words.into()]);
@@ -38,13 +38,13 @@ pub(super) fn sections(file: &ResultFile) -> Vec<Section> {
     if facts.is_empty() {
         facts.push(["proved".into(), "nothing: the certificate claims nothing".into()]);
     }
-    if let Some(doubt) = &file.doubt {
+    if let Some(doubt) = &file.run.doubt {
         facts.push(["doubt".into(), format!("{}; {}", doubt.evidence, doubt.next)]);
     }
     let how = "The certificate was recomputed from the geometry of the scene alone, apart from the \
                solver that found it. A result saved with --save holds it; voussoir check verifies it again.";
     let versions = vec![
-        ["voussoir".into(), file.versions.voussoir.clone()],
+        ["voussoir".into(), file.run.voussoir.clone()],
         ["format of results".into(), "voussoir-result/2".into()],
     ];
     vec![

@@ -10,11 +10,12 @@ use analysis::{Outcome, coulomb::Found};
 use base::number::{
     bracketed, computed, computed_tilt, decimals, ends, moving, moving_tilt, point,
 };
+use check::question::QuestionKind;
 use check::{
     proof::{
         answer::Answer,
         certificate::DryResult,
-        result::{QuestionKind, ResultFile},
+        result::ResultFile,
     },
     verdict::{Verdict, claim::Claim},
 };
@@ -29,7 +30,7 @@ pub(super) fn under(file: &ResultFile, text: impl std::fmt::Display) -> String {
 
 /// The answer in one line.
 pub(super) fn title(page: &mut Page, file: &ResultFile) {
-    let (text, role) = match file.question {
+    let (text, role) = match file.question.kind() {
         QuestionKind::Assess => match file.answer.verdict() {
             Some(Verdict::Stable) => ("stands".to_string(), Role::Good),
             Some(Verdict::Conditional) => ("stands only with a pre-stress".to_string(), Role::Bad),
@@ -71,7 +72,7 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
             _ if matches!(dry_of(file), Dry::Never) => ("no λ with dry friction, the bound undecided".to_string(), Role::Bad),
             _ => ("undecided".to_string(), Role::Unsure),
         },
-        QuestionKind::Tilt => {
+        QuestionKind::Tilt | QuestionKind::Repose => {
             let toward = file.answer.toward().map(|d| format!(" towards {}", point(d))).unwrap_or_default();
             match (status(&file.answer), found(&file.answer)) {
                 (Outcome::Found, Some(_)) if falls_by_itself(file) => ("falls even when level".to_string(), Role::Bad),
@@ -137,7 +138,7 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
         Some(words) => (format!("{text}; {words}"), role),
         None => (text, role),
     };
-    let text = match &file.doubt {
+    let text = match &file.run.doubt {
         Some(doubt) => format!("{text}: {}; {}", doubt.evidence, doubt.next),
         None => text,
     };
@@ -147,7 +148,7 @@ pub(super) fn title(page: &mut Page, file: &ResultFile) {
 /// What weakens a load factor or a tilt: the scene does not stand without it. Whoever reads one line
 /// reads it there.
 fn without_live_load(file: &ResultFile) -> Option<String> {
-    let place = match file.question {
+    let place = match file.question.kind() {
         QuestionKind::Limit => "without its live load",
         QuestionKind::Moving => "without the train",
         QuestionKind::Tilt => "when level",
@@ -158,7 +159,7 @@ fn without_live_load(file: &ResultFile) -> Option<String> {
         // A tilt has said so already.
         let says_so = match status(&file.answer) {
             Outcome::Impossible => true,
-            outcome => file.question == QuestionKind::Tilt && outcome == Outcome::Found,
+            outcome => file.question.kind() == QuestionKind::Tilt && outcome == Outcome::Found,
         };
         return (!says_so).then(|| format!("{place} it falls"));
     }
@@ -172,7 +173,7 @@ fn without_live_load(file: &ResultFile) -> Option<String> {
 
 /// The sentences that say what the answer rests on and what it does not say.
 pub(super) fn why(page: &mut Page, file: &ResultFile) {
-    match file.question {
+    match file.question.kind() {
         QuestionKind::Assess => {
             super::verdict::verdict(page, file);
             return simulation::why(page, file);
@@ -191,9 +192,9 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
             return dead_load(page, file);
         }
         QuestionKind::Moving => super::moving::why(page, file),
-        QuestionKind::Limit | QuestionKind::Tilt => {}
+        QuestionKind::Limit | QuestionKind::Tilt | QuestionKind::Repose => {}
     }
-    let tilt = file.question == QuestionKind::Tilt;
+    let tilt = file.question.kind() == QuestionKind::Tilt;
     match (status(&file.answer), found(&file.answer)) {
         (Outcome::Found, Some((value, lower, upper))) => {
             let [low, high] = ends(value, lower, upper);
@@ -222,7 +223,7 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
         (Outcome::Impossible, _) => page.paragraph(
             "The mechanism below gains power under the dead load and none under the live load: no multiple of the live load holds it.",
         ),
-        _ if file.trace.is_empty() => page.paragraph("The time limit left no time for an attempt."),
+        _ if file.run.trace.is_empty() => page.paragraph("The time limit left no time for an attempt."),
         _ => {
             let l = file.answer.bound();
             let end = |e: Option<f64>| e.map_or("unknown".to_string(), |v| format!("{v:.9}"));
@@ -239,7 +240,7 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
 
 /// What λ multiplies.
 fn unit(file: &ResultFile) -> &'static str {
-    if file.question == QuestionKind::Moving {
+    if file.question.kind() == QuestionKind::Moving {
         return "";
     }
     let live = &file.scene.input.loads.live;
@@ -263,7 +264,7 @@ fn at_rest_to(tangent: f64) -> String {
 /// The load factor with dry friction.
 fn dry(page: &mut Page, file: &ResultFile) {
     let Some(dry) = &file.dry else { return };
-    let words = |v: f64, tilt: fn(f64) -> String, factor: fn(f64) -> String| match file.question {
+    let words = |v: f64, tilt: fn(f64) -> String, factor: fn(f64) -> String| match file.question.kind() {
         QuestionKind::Tilt => format!("{}°", tilt(v.atan().to_degrees())),
         QuestionKind::Kinematic => format!("α = {}", factor(v)),
         _ => format!("λ = {}", factor(v)),
@@ -304,8 +305,7 @@ fn dry(page: &mut Page, file: &ResultFile) {
         _ => {
             let rests = dry.rests_at.filter(|&r| r > 0.0).map(|r| format!(" The blocks come to rest up to {} at least (computed, not proved).", words(r)));
             format!(
-                "With dry friction no value came out: after {} convex programs the friction limits had not settled.{}",
-                dry.solves,
+                "With dry friction no value came out: the friction limits had not settled.{}",
                 rests.unwrap_or_default()
             )
         }
@@ -366,7 +366,7 @@ fn dry_value(file: &ResultFile) -> Option<f64> {
 }
 
 fn dead_load(page: &mut Page, file: &ResultFile) {
-    let place = match file.question {
+    let place = match file.question.kind() {
         QuestionKind::Tilt => "When level",
         QuestionKind::Kinematic => "Without an earthquake",
         QuestionKind::Moving => "Without the train",
@@ -389,7 +389,7 @@ fn dead_load(page: &mut Page, file: &ResultFile) {
 
 /// Every direction of a tilt.
 pub(super) fn directions(page: &mut Page, file: &ResultFile, options: TextOptions) {
-    if file.question != QuestionKind::Tilt {
+    if file.question.kind() != QuestionKind::Tilt {
         return;
     }
     // Eight directions are what is asked for by default: they are shown in full.

@@ -6,44 +6,57 @@ use base::{
     error::Finding,
     number::{count, short},
 };
-use check::proof::{result::ResultFile, verify::Verification};
+use check::proof::{Verification, result::ResultFile};
 use model::{assembly::Member, interface::Model, train};
 use scene::Train;
 
 /// The verification of a result: what holds and what fails, part by part.
-pub fn verification(file: &ResultFile, verification: &Verification, layout: Layout) -> Page {
+pub fn verification(
+    name: &str,
+    file: Option<&ResultFile>,
+    verification: &Verification,
+    layout: Layout,
+) -> Page {
     let mut page = Page::new(layout);
+    let answer = file.map(|f| &f.answer);
+    let in_time = answer.is_some_and(|a| a.shaken().is_some() || a.fate().is_some() && a.verdict().is_none());
+    let again = verification.unchecked().next().is_none();
     let (text, role) = match (verification.refuted(), verification.claimed) {
         (true, _) => ("refuted", Role::Bad),
-        (false, true) => ("proved", Role::Good),
-        (false, false) if file.answer.shaken().is_some() => {
-            let again = verification.unchecked().next().is_none();
+        (false, _) if in_time => {
             let words = [
                 "not confirmed: run again, the engine does something else, or was not run",
                 "confirmed, not proved: run again, the engine does the same",
             ];
-            (words[usize::from(again)], Role::Unsure)
+            (words[usize::from(again)], if again { Role::Good } else { Role::Unsure })
         }
+        (false, true) => ("proved", if again { Role::Good } else { Role::Unsure }),
         (false, false) => ("claims nothing", Role::Unsure),
     };
-    let text = if verification.refuted() || !verification.claimed {
-        text.into()
-    } else {
-        format!("{text}, {}", verification.grade())
-    };
-    let text = match file.answer.as_verdict().and_then(|a| a.law) {
+    let bare = verification.refuted() || !verification.claimed || in_time;
+    let text = if bare { text.into() } else { format!("{text}, {}", verification.grade()) };
+    let law = answer.and_then(|a| a.as_verdict()).and_then(|a| a.law);
+    let computed = verification.computed() && !in_time;
+    let text = match law {
         Some(Law::Associative) if !verification.refuted() => {
             format!("{text}; whether a pre-stress is needed was not asked")
         }
-        _ if verification.computed() && file.answer.rocking().is_some() => {
+        _ if computed && answer.is_some_and(|a| a.rocking().is_some()) => {
             format!("where it starts is {text}; its history is computed, not proved")
         }
-        _ if verification.computed() && file.answer.shaken().is_none() => {
+        _ if computed && answer.is_some_and(|a| a.path().is_some()) => {
+            format!("{text}, point by point; that it goes from one to the next is computed, not proved")
+        }
+        _ if computed => {
             format!("{text}; that states under dry friction rest or move is computed, not proved")
         }
         _ => text,
     };
-    page.title(&file.scene.name, super::answer::under(file, text), role);
+    let text = match file {
+        Some(file) => super::answer::under(file, text),
+        None => text,
+    };
+    page.title(name, text, role);
     for (title, findings) in &verification.parts {
         page.blank();
         page.paragraph(title);

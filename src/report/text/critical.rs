@@ -11,7 +11,7 @@ use base::{
 };
 use check::{
     proof::{
-        critical::{CriticalResult, CriticalValue, exhausted},
+        critical::{CriticalResult, CriticalValue},
         result::ResultFile,
     },
     verdict::Verdict,
@@ -68,7 +68,7 @@ fn flip(name: &str, (v, method): &(CriticalValue, Method)) -> String {
 /// The first line.
 pub(super) fn title(file: &ResultFile) -> (String, Role) {
     let Some(c) = &file.critical else { return ("undecided".into(), Role::Unsure) };
-    match (&flips(file)[..], exhausted(file)) {
+    match (&flips(file)[..], file.critical.as_ref().and_then(CriticalResult::exhausted)) {
         ([one], _) => (flip(name(&c.vary), one), Role::Value),
         ([], Some(verdict)) => (format!("{} throughout, no flip", verb(verdict)), Role::Bad),
         ([], None) => ("undecided".into(), Role::Unsure),
@@ -90,7 +90,7 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
             tolerance::UNBALANCE
         ));
     }
-    match exhausted(file) {
+    match file.critical.as_ref().and_then(CriticalResult::exhausted) {
         Some(verdict) => {
             page.paragraph(&format!("It {} at every value of the scan; at both ends of the range that is proved.", verb(verdict)))
         }
@@ -145,18 +145,18 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
             count(c.scan.len(), "value"),
             c.vary,
             words.join(", "),
-            count(c.scenes, "scene")
+            count(file.run.scenes, "scene")
         )],
     );
-    let errors: Vec<String> =
-        c.scan.iter().filter_map(|s| Some(format!("{}: {}", s.value, s.error.as_ref()?))).collect();
+    let why = &file.run.why;
+    let errors = why.no_scene.iter().map(|(value, error)| format!("{value}: {error}"));
     let open = c
         .scan
         .iter()
         .filter(|s| s.verdict == Some(Verdict::Undecided))
         .map(|s| format!("{}: undecided", s.value));
     let lines: Vec<String> =
-        errors.into_iter().chain(open).chain(c.notes.iter().cloned()).collect();
+        errors.chain(open).chain(why.range.iter().cloned()).collect();
     page.row("of these", cut(&lines, SHOWN, options));
     if options.verbose {
         let all = c.scan.iter().filter_map(|s| {

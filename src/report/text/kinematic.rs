@@ -13,7 +13,8 @@ use check::{
         answer::{FactorStatus, LoadFactorAnswer},
         kinematic::KinematicAnswer,
         path::{PathEvent, PathEventKind, PathPoint, PathStatus},
-        result::{Direction, ResultFile},
+        result::ResultFile,
+        told::Direction,
     },
     terms::{Law, Outcome},
     verdict::claim::Claim,
@@ -185,7 +186,7 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
     }
 }
 
-fn slides(j: &check::proof::result::JointWords) -> bool {
+fn slides(j: &check::proof::told::JointWords) -> bool {
     use check::verdict::mechanism::JointMotion;
     matches!(j.motion, JointMotion::Slide | JointMotion::HingeAndSlide)
 }

@@ -1,8 +1,9 @@
 //! Contacts that were left out, and what the answer is with them.
 
 use base::number::{fixed, short};
+use check::question::QuestionKind;
 use check::{
-    proof::result::{QuestionKind, ResultFile},
+    proof::result::ResultFile,
     terms::{Closed, ClosedAnswer, ClosedEnd, Difference, Law, Outcome},
     verdict::Verdict,
 };
@@ -11,7 +12,7 @@ use check::{
 pub fn left_out(file: &ResultFile) -> Option<String> {
     let said = file.left_out_contacts.as_ref()?;
     // Time runs with the shapes themselves, not with these contacts.
-    if matches!(file.question, QuestionKind::Simulate | QuestionKind::Shake) {
+    if matches!(file.question.kind(), QuestionKind::Simulate | QuestionKind::Shake) {
         return None;
     }
     let other = match &said.closed {
@@ -35,7 +36,7 @@ fn pairs(n: usize) -> String {
 }
 
 fn closed_words(file: &ResultFile, closed: &Closed) -> String {
-    let bound = |v: f64| match file.question {
+    let bound = |v: f64| match file.question.kind() {
         QuestionKind::Tilt => format!("it falls at {:.4}°", v.atan().to_degrees()),
         _ => format!("λ = {}", fixed(v, 6)),
     };
@@ -56,7 +57,7 @@ fn closed_words(file: &ResultFile, closed: &Closed) -> String {
         },
     };
     // The bound of the answer itself is what it is to be held against.
-    let dry = file.dry.is_some() || file.coulomb_state.is_some();
+    let dry = file.dry.is_some() || file.motion.is_some();
     match closed.law {
         Law::Associative if dry => format!("{text} where joints open as they slide"),
         _ => text,

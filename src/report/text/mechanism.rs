@@ -5,7 +5,8 @@ use base::number::{count, point, short};
 use check::{
     proof::{
         member::{MemberLine, MemberState},
-        result::{JointWords, ResultFile},
+        result::ResultFile,
+        told::JointWords,
     },
     verdict::mechanism::{JointMotion, MemberMotion},
 };
@@ -30,7 +31,7 @@ const FEW: usize = 2;
 /// Which blocks move, and which joints hinge, slide or part.
 pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
     let Some(m) = &file.mechanism else { return };
-    let free = file.scene.blocks - file.scene.supports.min(file.scene.blocks);
+    let free = file.scene.counts.blocks - file.scene.counts.supports.min(file.scene.counts.blocks);
     let fastest: Vec<&str> = m
         .moving
         .iter()

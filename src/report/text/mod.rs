@@ -33,8 +33,9 @@ pub use template::template;
 
 use analysis::Attempt;
 use base::number::{count, seconds};
+use check::question::QuestionKind;
 use check::proof::{
-    result::{QuestionKind, ResultFile},
+    result::ResultFile,
     work::Work,
 };
 use check::verdict::Verdict;
@@ -75,8 +76,8 @@ pub fn render(file: &ResultFile, asked: Asked, options: TextOptions, layout: Lay
     moving::rows(&mut page, file, options);
     shaken::rows(&mut page, file, options);
     simulation::rows(&mut page, file, options);
-    page.row("proof", file.certificate.verified.iter().cloned());
-    let s = &file.scene;
+    page.row("proof", file.certificate.verified().iter().cloned());
+    let s = &file.scene.counts;
     page.row(
         "scene",
         [format!(
@@ -89,17 +90,17 @@ pub fn render(file: &ResultFile, asked: Asked, options: TextOptions, layout: Lay
         )],
     );
     bridge::rows(&mut page, file);
-    page.row("doubt", file.doubt.iter().map(|d| format!("{}; {}", d.evidence, d.next)));
-    page.row("left out", cut(&file.left_out, SHOWN, options));
+    page.row("doubt", file.run.doubt.iter().map(|d| format!("{}; {}", d.evidence, d.next)));
+    page.row("left out", cut(&file.run.left_out, SHOWN, options));
     page.row(
         "note",
-        cut(&file.warnings.iter().map(|f| f.text.clone()).collect::<Vec<_>>(), NOTES, options),
+        cut(&file.warnings().map(|f| f.text.clone()).collect::<Vec<_>>(), NOTES, options),
     );
     page.row("time", [time(file)]);
     if options.verbose {
-        let done = file.work.iter().filter(|w| w.attempts + w.fixed_points > 0);
+        let done = file.run.work.iter().filter(|w| w.attempts + w.fixed_points > 0);
         page.row("work", done.map(work));
-        page.row("attempts", file.trace.iter().map(attempt));
+        page.row("attempts", file.run.trace.iter().map(attempt));
     }
     page.blank();
     next(&mut page, file, asked);
@@ -112,7 +113,7 @@ fn with_members(members: usize) -> String {
 }
 
 fn time(file: &ResultFile) -> String {
-    let t = &file.timings;
+    let t = &file.run.timings;
     let stages = [
         ("read", t.read),
         ("resolve", t.resolve),
@@ -169,11 +170,12 @@ fn attempt(a: &Attempt) -> String {
 /// The command that asks the same again.
 pub fn command(file: &ResultFile, asked: Asked) -> String {
     let scene = asked.scene;
-    let verb = match file.question {
+    let verb = match file.question.kind() {
         QuestionKind::Assess => "assess",
         QuestionKind::Limit => "limit",
         QuestionKind::Moving => "limit",
         QuestionKind::Tilt => "tilt",
+        QuestionKind::Repose => "repose",
         QuestionKind::Critical => "critical",
         QuestionKind::Thrust => "thrust",
         QuestionKind::Simulate | QuestionKind::Shake => "simulate",
@@ -197,10 +199,10 @@ fn next(page: &mut Page, file: &ResultFile, asked: Asked) {
         || file.thrust.is_some()
         || file.stages.is_some()
         || file.answer.path().is_some_and(|a| a.value.is_some());
-    if file.question == QuestionKind::Simulate {
+    if file.question.kind() == QuestionKind::Simulate {
         return page.commands("next", &simulation::next(file, scene, &again));
     }
-    if file.question == QuestionKind::Shake {
+    if file.question.kind() == QuestionKind::Shake {
         return page.commands("next", &shaken::next(&again));
     }
     if file.certificate.claim.is_none() && !elsewhere {
@@ -208,7 +210,7 @@ fn next(page: &mut Page, file: &ResultFile, asked: Asked) {
             .commands("next", &[look, (format!("{again} --verbose"), "every attempt at it")]);
     }
     let mut list = Vec::new();
-    if file.question == QuestionKind::Assess {
+    if file.question.kind() == QuestionKind::Assess {
         let falls = matches!(file.answer.verdict(), Some(Verdict::Unstable | Verdict::Conditional));
         list.push(match (falls, file.scene.input.loads.live.is_empty()) {
             (true, _) => look,

@@ -9,7 +9,8 @@ use check::{
     proof::{
         answer::FactorStatus,
         moving::MovingAnswer,
-        result::{Direction, ResultFile},
+        result::ResultFile,
+        told::Direction,
     },
     terms::Found,
 };

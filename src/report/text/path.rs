@@ -6,10 +6,11 @@ use super::{
 };
 use crate::path::{along, bound, happens};
 use base::number::{bracketed, count, fixed, moving, point, short};
+use check::question::QuestionKind;
 use check::{
     proof::{
         path::{DrivenBy, PathEvent, PathEventKind, PathPoint, PathResult, PathStatus},
-        result::{QuestionKind, ResultFile},
+        result::ResultFile,
     },
     verdict::claim::Claim,
 };
@@ -58,7 +59,7 @@ pub(super) fn title(file: &ResultFile) -> (String, Role) {
             };
             (format!("stands up to {number} {unit}{way}, then falls"), Role::Bad)
         }
-        (PathStatus::Reached, Some(_), _) if file.question == QuestionKind::Settle => {
+        (PathStatus::Reached, Some(_), _) if file.question.kind() == QuestionKind::Settle => {
             ("stands through the whole movement".into(), Role::Good)
         }
         (PathStatus::Reached, Some(_), _) => {
@@ -104,7 +105,7 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
     if events.into_iter().any(|e| e.kind == PathEventKind::Slides) {
         page.paragraph("Where joints slide the motion is that of dry friction: they slide without opening, against μ times what presses them. Other states may be admissible beside it.");
     }
-    if file.question == QuestionKind::Push {
+    if file.question.kind() == QuestionKind::Push {
         page.paragraph("At each point the load factor is that of the displaced scene, between forces that balance it and a mechanism that admits no more; the point moves as the mechanism takes it. Where it slides by dry friction it is that of forces and a mechanism that obey Coulomb's law together, and at most the bound beside it.");
     }
     page.paragraph("Every point is a scene of its own, with a proof. That the poses are those that the scene passes through is computed, not proved.");
@@ -150,7 +151,7 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
     }
     for (label, p) in ["stands at", "falls at"].iter().zip(&path.ends) {
         let head = format!("{}, proved:", p.value);
-        let proof = p.certificate.verified.iter().map(|v| format!("  {v}"));
+        let proof = p.certificate.verified().iter().map(|v| format!("  {v}"));
         page.row(label, std::iter::once(head).chain(proof));
     }
     let proved = path.points.iter().filter(|p| p.certificate.claim.is_some()).count();
@@ -162,9 +163,9 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
             count(path.points.len(), "point")
         )],
     );
-    if path.between > 0 {
+    if file.run.between > 0 {
         let text = "between the points, where closed joints stayed closed, no blocks overlapped and forces inside the cones were found; computed, no load factor is proved there";
-        page.row("looked at", [format!("{} {text}", count(path.between, "pose"))]);
+        page.row("looked at", [format!("{} {text}", count(file.run.between, "pose"))]);
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::page::Page;
 use base::tolerance;
-use check::{proof::ResultFile, verdict::Verdict};
+use check::{proof::ResultFile, terms::Law, verdict::Verdict};
 
 /// Why it stands or falls.
 pub(super) fn verdict(page: &mut Page, file: &ResultFile) {
@@ -20,7 +20,7 @@ pub(super) fn verdict(page: &mut Page, file: &ResultFile) {
             page.paragraph(&format!(
                 "Contact forces inside every friction cone balance every block, up to {upper:.1e} of its weight, but the loads do not produce them: they need a pre-stress that nobody applied."
             ));
-            let left = file.coulomb_state.as_ref().and_then(|s| s.steps.last()).map_or(f64::NAN, |s| s.acceleration);
+            let left = file.run.state_steps.last().map_or(f64::NAN, |s| s.acceleration);
             page.paragraph(&format!(
                 "Without it the motion below starts, with {left:.2} g on some block, and obeys Coulomb's law. It is not safe."
             ));
@@ -28,7 +28,7 @@ pub(super) fn verdict(page: &mut Page, file: &ResultFile) {
         Some(Verdict::Unstable) => page.paragraph(&format!(
             "No contact forces inside the friction cones balance the loads: whatever they are, some block is left with at least {lower:.1e} of its weight. The mechanism below moves by itself, which proves it."
         )),
-        Some(Verdict::Undecided) if file.coulomb_state.is_some() && upper <= tolerance::UNBALANCE => page.paragraph(
+        Some(Verdict::Undecided) if file.motion.is_some() && upper <= tolerance::UNBALANCE => page.paragraph(
             "Admissible contact forces exist, but whether the loads produce them did not come out: the state under dry friction neither came to rest nor to a motion.",
         ),
         Some(Verdict::Undecided) | None => page.paragraph(&format!(
@@ -39,18 +39,19 @@ pub(super) fn verdict(page: &mut Page, file: &ResultFile) {
 
 /// What makes admissible forces count.
 fn settled(file: &ResultFile) -> String {
-    match &file.coulomb_state {
-        Some(state) => {
-            let step = state.steps.last();
+    let law = file.answer.as_verdict().and_then(|a| a.law);
+    match (file.motion, law) {
+        (Some(_), _) => {
+            let step = file.run.state_steps.last();
             format!(
                 "The loads produce such forces by themselves: with dry friction, on contacts that yield a little, the blocks come to rest (what is left, {:.0e} g, falls with the compliance).",
                 step.map_or(f64::NAN, |s| s.acceleration)
             )
         }
-        None if file.left_out.iter().any(|l| l.starts_with("the state under dry friction")) => {
+        (None, Some(Law::Coulomb)) => {
             "No pre-stress is possible: contacts form no closed chain.".into()
         }
-        None => {
+        (None, _) => {
             "This says that the joints can carry the load; it does not exclude that they need a pre-stress which nobody applied.".into()
         }
     }

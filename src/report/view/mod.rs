@@ -28,8 +28,9 @@ pub use surface::{Surface, ViewShape};
 pub use train::positions;
 
 use base::number::short;
+use check::question::QuestionKind;
 use check::kinematic::quake;
-use check::proof::result::{QuestionKind, ResultFile};
+use check::proof::result::ResultFile;
 use check::verdict::section::centroid;
 use dynamics::Frame;
 use model::{
@@ -246,7 +247,7 @@ impl View {
 
 /// The ground of a tilt as it is tipped when the answer says that it falls.
 fn tipped(up: Vector3<f64>, file: &ResultFile) -> Option<Vector3<f64>> {
-    match (file.question, file.answer.toward(), file.answer.bound().and_then(|b| b.value)) {
+    match (file.question.kind(), file.answer.toward(), file.answer.bound().and_then(|b| b.value)) {
         (QuestionKind::Tilt, Some(toward), Some(tangent)) => {
             Some((up - Vector3::from(toward) * tangent).normalize())
         }

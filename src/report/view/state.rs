@@ -2,10 +2,11 @@
 
 use analysis::{Outcome, coulomb::Found};
 use base::{number::short, tolerance};
+use check::question::QuestionKind;
 use check::{
     proof::{
         certificate::Certificate,
-        result::{QuestionKind, ResultFile},
+        result::ResultFile,
     },
     verdict::{
         Forces, Verdict,
@@ -279,7 +280,7 @@ struct Named<'a> {
 pub(super) fn of(model: &Model, file: &ResultFile) -> Result<Vec<ViewState>, String> {
     let mut list: Vec<Named> = Vec::new();
     let own = |c: &Certificate| !c.forces.is_empty();
-    let tips = file.question == QuestionKind::Tilt;
+    let tips = file.question.kind() == QuestionKind::Tilt;
     let at = |v: Option<f64>| match v {
         None => String::new(),
         Some(v) if tips => format!(" at {}°", short(v.atan().to_degrees())),
@@ -356,7 +357,7 @@ pub(super) fn of(model: &Model, file: &ResultFile) -> Result<Vec<ViewState>, Str
         let saved = &dead.certificate.forces;
         list.push(Named { part: ViewPart::Dead, name: name.into(), value: None, saved });
     }
-    let tangent = |part: ViewPart| match (file.question, part) {
+    let tangent = |part: ViewPart| match (file.question.kind(), part) {
         (QuestionKind::Tilt, ViewPart::Answer) => {
             file.answer.bound().and_then(|b| b.value).unwrap_or(0.0)
         }
@@ -374,7 +375,7 @@ pub(super) fn of(model: &Model, file: &ResultFile) -> Result<Vec<ViewState>, Str
         let mut state = ViewState::new(model, named, &forces);
         state.balances = !state.name.contains(CLOSEST);
         let pushes = matches!(
-            file.question,
+            file.question.kind(),
             QuestionKind::Limit | QuestionKind::Moving | QuestionKind::Kinematic
         );
         state.live = pushes && part != ViewPart::Dead;

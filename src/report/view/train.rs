@@ -31,7 +31,7 @@ impl Course {
 pub fn positions(model: &Model, file: &ResultFile) -> Vec<Frame> {
     let Some(worst) = file.answer.moving() else { return Vec::new() };
     let view = View::bare(model);
-    let frame = |d: &check::proof::result::Direction| {
+    let frame = |d: &check::proof::told::Direction| {
         let a = d.answer.moving().filter(|a| a.travel == worst.travel)?;
         matches!(d.certificate.claim, Some(Claim::LoadFactor { .. })).then_some(())?;
         let rates = read_rates(&model.assembly, &d.certificate.rates).ok()?;

@@ -196,3 +196,25 @@ pub fn upper_bound(motion: Option<MotionProof>, to_first_order: impl Fn() -> f64
         None => to_first_order(),
     }
 }
+
+/// Of two ends between which a load factor is said to lie, those that forces and a mechanism prove.
+pub fn ends(
+    model: &Model,
+    forces: &Forces,
+    rates: &[Rate],
+    [lower, upper]: [Option<f64>; 2],
+) -> [Option<f64>; 2] {
+    let natural = natural_factor(&model.assembly);
+    let lower = lower.filter(|lower| {
+        let mut f = Findings::default();
+        let width = tolerance::LOAD_FACTOR_WIDTH * lower.abs() + tolerance::LOAD_FACTOR_FLOOR * natural;
+        supported(&mut f, model, (forces, rates), *lower, width);
+        f.fails.is_empty()
+    });
+    let unit = certificate::at_unit_speed(&model.assembly, rates);
+    let upper = upper.filter(|upper| {
+        let mut f = Findings::default();
+        upper_end(&mut f, model, forces, &unit, *upper) <= *upper && f.fails.is_empty()
+    });
+    [lower, upper]
+}

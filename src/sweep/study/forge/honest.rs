@@ -1,97 +1,106 @@
-//! Honest results of a scene, with the forces and rates they were made of.
+//! Honest results of a scene, of every kind of question that it can be asked.
 
 use analysis::{
-    Answer, AssessOptions, Assessment, Control, CriticalOptions, Law, LimitOptions, Limited,
-    Proved, Question, ThrustOptions, TiltOptions, ask, critical::probe, recompute::Solvers, saved,
+    AssessOptions, Control, ControlPoint, CriticalOptions, KinematicOptions, Law, LimitOptions,
+    PushOptions, Question, SettleOptions, SimulateOptions, StagesOptions, StateOptions,
+    SupportMove, ThrustOptions, TiltOptions, ask, recompute::Solvers, saved,
 };
 use base::error::InputError;
-use check::proof::verify::verify_model;
+use check::proof::{read::read_str, verify::verify_model};
 use model::interface::{Model, prepare};
 use scene::Scene;
-use serde_json::{Value, json};
+use serde_json::Value;
 use solve::deadline::Deadline;
 
 /// A proved result.
 pub(super) struct Honest {
     /// The question.
     pub name: &'static str,
-    pub scene: Scene,
-    pub model: Model,
     pub file: Value,
-    /// The verdict under dead load, as computed.
-    pub standing: Proved<Assessment>,
-    /// The load factor, where it was asked.
-    pub limit: Option<Limited>,
-    /// Critical: proofs at the ends of the range, far from the flip.
-    pub ends: Vec<Value>,
 }
 
 /// Seconds for a question.
 const SECONDS: f64 = 10.0;
-/// One scene in so many is asked further questions.
-const TILTED: usize = 4;
-const THRUST: usize = 5;
-const CRITICAL: usize = 6;
 
 /// The results of a scene that are proved. Not every scene is asked everything: `turn` says which
 /// of a family it is.
 pub(super) fn results(scene: &Scene, turn: usize) -> Result<Vec<Honest>, InputError> {
     let model = prepare(scene)?;
-    let control = || Control { deadline: Deadline::within(SECONDS), ..Control::default() };
-    let Answer::Assess(standing) =
-        ask(&Question::Assess(AssessOptions::default()), scene, &model, &control())?
-    else {
-        return Ok(Vec::new());
-    };
-    let range = CriticalOptions {
-        law: Law::Associative,
-        vary: "/joints/default/friction".into(),
-        between: [0.02, 1.5],
-        scan: Some(4),
-    };
-    let toward = vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-    let questions = [
-        (true, Question::Assess(AssessOptions::default())),
-        (true, Question::Limit(LimitOptions::default())),
-        (
-            turn.is_multiple_of(TILTED),
-            Question::Tilt(TiltOptions { toward, ..TiltOptions::default() }),
-        ),
-        (
-            turn.is_multiple_of(THRUST),
-            Question::Thrust(ThrustOptions { range: true, ..ThrustOptions::default() }),
-        ),
-        (turn.is_multiple_of(CRITICAL), Question::Critical(range.clone())),
-    ];
     let mut list = Vec::new();
-    for (_, question) in questions.iter().filter(|(wanted, _)| *wanted) {
+    for question in questions(&model, turn) {
         // Of some scenes not everything can be asked: dead loads that do not hang, supports that
         // nothing pushes.
-        let Ok(answer) = ask(question, scene, &model, &control()) else { continue };
-        let Some(file) = saved::of(scene, &model, &answer) else { continue };
-        if !verify_model(&file, scene, &model, &Solvers).proved() {
-            continue;
+        let Some(file) = asked(&question, scene, &model) else { continue };
+        let Ok(saved) = read_str("honest", file.to_string()) else { continue };
+        if verify_model(&saved, scene, &model, &Solvers).proved() {
+            list.push(Honest { name: question.word(), file });
         }
-        let Ok(file) = file.to_value() else { continue };
-        let ends = match question {
-            Question::Critical(o) => {
-                o.between.into_iter().filter_map(|v| end(scene, &o.vary, v, &control())).collect()
-            }
-            _ => Vec::new(),
-        };
-        let limit = match answer {
-            Answer::Limit(l) => Some(*l),
-            _ => None,
-        };
-        let (name, scene, model, standing) =
-            (question.word(), scene.clone(), model.clone(), standing.clone());
-        list.push(Honest { name, scene, model, file, standing, limit, ends });
     }
     Ok(list)
 }
 
-/// A value of the scene with its verdict and the proof of it.
-fn end(scene: &Scene, pointer: &str, value: f64, control: &Control) -> Option<Value> {
-    let control = Control { law: Law::Associative, ..*control };
-    Some(json!(saved::side(&probe(scene, pointer, value, &control).ok()?.proved())))
+/// The result of a question; nothing where it cannot be asked.
+pub(super) fn asked(question: &Question, scene: &Scene, model: &Model) -> Option<Value> {
+    let control = Control { deadline: Deadline::within(SECONDS), ..Control::default() };
+    let answer = ask(question, scene, model, &control).ok()?;
+    saved::of(question, scene, model, &answer).ok()?.to_value().ok()
+}
+
+/// Questions of every kind; the dear ones by turns.
+fn questions(model: &Model, turn: usize) -> Vec<Question> {
+    let blocks = &model.assembly.blocks;
+    let mut list = vec![
+        Question::Assess(AssessOptions::default()),
+        Question::Limit(LimitOptions::default()),
+    ];
+    let toward = vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let free = model.assembly.free().max_by(|&i, &j| {
+        blocks[i].centroid.z.total_cmp(&blocks[j].centroid.z)
+    });
+    let control =
+        free.map(|i| ControlPoint { block: blocks[i].id.clone(), point: blocks[i].centroid.into() });
+    match turn % 9 {
+        0 => list.push(Question::Tilt(TiltOptions { toward, ..TiltOptions::default() })),
+        1 => {
+            list.push(Question::Thrust(ThrustOptions { range: true, ..ThrustOptions::default() }))
+        }
+        2 => list.push(Question::Critical(CriticalOptions {
+            law: Law::Associative,
+            vary: "/joints/default/friction".into(),
+            between: [0.02, 1.5],
+            scan: Some(4),
+        })),
+        3 => list.push(Question::Stages(StagesOptions {
+            remove_each: blocks.len() < 12,
+            ..StagesOptions::default()
+        })),
+        4 => list.push(Question::Simulate(SimulateOptions {
+            fast: true,
+            seconds: Some(0.5),
+            ..SimulateOptions::default()
+        })),
+        5 => list.push(Question::Kinematic(KinematicOptions {
+            toward,
+            ..KinematicOptions::default()
+        })),
+        6 => list.push(Question::State(StateOptions::default())),
+        7 => {
+            let own = blocks.iter().filter(|b| b.support).map(|b| {
+                SupportMove::along(b.id.clone(), [0.05 * b.size, 0.0, 0.0])
+            });
+            list.push(Question::Settle(SettleOptions {
+                moves: own.take(1).collect(),
+                ..SettleOptions::default()
+            }));
+        }
+        _ => list.extend(control.map(|control| {
+            Question::Push(PushOptions {
+                control,
+                toward: [1.0, 0.0, 0.0],
+                at: Vec::new(),
+                from: Vec::new(),
+            })
+        })),
+    }
+    list
 }

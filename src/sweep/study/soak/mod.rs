@@ -206,7 +206,7 @@ fn ask(seed: u64, index: usize, soaked: &mut Soaked) {
 fn is_near_a_flip(model: &Model, verdict: Verdict, control: &Control) -> bool {
     let assembly = &model.assembly;
     let down = assembly.gravity.normalize();
-    analysis::tilt::directions(assembly.gravity, 8).into_iter().any(|d| {
+    check::question::spread(assembly.gravity, 8).into_iter().any(|d| {
         let mut pushed = assembly.clone();
         for i in assembly.free() {
             let weight = assembly.blocks[i].mass * assembly.gravity.norm();

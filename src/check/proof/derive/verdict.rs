@@ -1,0 +1,106 @@
+//! Verdicts.
+
+use super::{Derivation, computed, deciding};
+use crate::{
+    proof::{
+        answer::{Answer, VerdictAnswer},
+        certificate::Proven,
+        evidence::Standing,
+        told::Direction,
+    },
+    terms::{Bracket, Law, StateMotion},
+    verdict::{
+        Verdict, certificate,
+        claim::{self, Claim, Findings},
+    },
+};
+use model::interface::{self, Model, Part, is_forest};
+
+impl Derivation<'_> {
+    /// Does it stand?
+    pub(in crate::proof) fn verdict(
+        &self,
+        f: &mut Findings,
+        model: &Model,
+        e: &Standing,
+    ) -> (VerdictAnswer, Option<Proven>) {
+        let proven = e.certificate.prove(f, model);
+        let claim = proven.as_ref().and_then(|p| p.claim);
+        if claim.is_some_and(|c| c.verdict().is_none()) {
+            f.fails.push("what is proved is no verdict".into());
+        }
+        let verdict = claim.and_then(|c| c.verdict()).unwrap_or(Verdict::Undecided);
+        if claim.is_none() {
+            f.holds.push("undecided: nothing is claimed".into());
+        }
+        let law = (verdict == Verdict::Stable).then(|| self.rests(f, model, e.state));
+        let part = proven.as_ref().filter(|_| verdict != Verdict::Stable);
+        let answer = VerdictAnswer {
+            verdict,
+            law,
+            unbalance: proven.as_ref().map_or(
+                Bracket { lower: 0.0, upper: f64::INFINITY },
+                |p| unbalance(model, p, verdict),
+            ),
+            part: part.and_then(|p| deciding(model, &p.rates)),
+            proof: claim.and(e.certificate.grade()),
+        };
+        (answer, proven)
+    }
+
+    /// Of what stands: for which law of sliding. That the loads produce such forces by themselves is
+    /// a state, computed and not proved, but where statics alone fixes them.
+    fn rests(&self, f: &mut Findings, model: &Model, state: Option<StateMotion>) -> Law {
+        if is_forest(model) {
+            f.holds.push("contacts form no closed chain: the loads fix the forces".into());
+            return Law::Coulomb;
+        }
+        if state != Some(StateMotion::Rests) {
+            f.holds.push("whether the loads produce such forces by themselves was not asked: they may need a pre-stress".into());
+            return Law::Associative;
+        }
+        f.computed = true;
+        if self.asks_again() && f.fails.is_empty() {
+            let text = "the loads produce such forces by themselves: with dry friction the blocks come to rest";
+            let rests = self.again.motion(model).map(|motion| motion == StateMotion::Rests);
+            computed(f, rests, text.into());
+        }
+        Law::Coulomb
+    }
+
+    /// Whether a scene stands under its dead load alone, where that was asked.
+    pub(in crate::proof) fn dead(
+        &mut self,
+        model: &Model,
+        e: Option<&Standing>,
+    ) -> Option<Direction> {
+        let e = e?;
+        let mut f = Findings::default();
+        let (answer, _) = self.verdict(&mut f, model, e);
+        self.part("dead load alone", f);
+        let answer = Answer::Verdict(answer);
+        Some(Direction { answer, certificate: e.certificate.clone(), dry: None })
+    }
+}
+
+/// The bracket of the least unbalance that forces and rates give, g: part by part, in units in which
+/// nothing over- or underflows.
+fn unbalance(model: &Model, proven: &Proven, verdict: Verdict) -> Bracket {
+    let Proven { claim, forces, rates, .. } = proven;
+    let parts = interface::parts(model);
+    let left =
+        |part: &Part| certificate::statics(&part.model, &part.take_forces(forces), 0.0).unbalance;
+    let upper = parts.iter().map(left).fold(0.0, f64::max);
+    // Rates bound nothing from below unless they are a mechanism.
+    if verdict != Verdict::Undecided && *claim != Some(Claim::Unstable) {
+        return Bracket { lower: 0.0, upper };
+    }
+    let rates = &certificate::at_unit_speed(&model.assembly, rates)[..];
+    let k = match claim::moving(model, forces, rates) {
+        Some((part, own, rates)) => certificate::kinematics(&part.model, &rates, &own),
+        None => certificate::kinematics(model, rates, forces),
+    };
+    let slack = if verdict == Verdict::Undecided { k.slack } else { 0.0 };
+    let lower = if k.norm > 0.0 { ((k.gain() - slack) / k.norm).max(0.0) } else { 0.0 };
+    Bracket { lower, upper }
+}

@@ -1,0 +1,229 @@
+//! What is told of a result: all of it follows from question, scene and evidence ([`derive`]), and
+//! is never read from a file.
+//!
+//! [`derive`]: super::derive::derive
+
+use super::{
+    answer::Answer,
+    certificate::{Certificate, DryResult},
+    critical::CriticalResult,
+    member::{MemberLine, MemberWords},
+    path::PathResult,
+    simulation::Simulation,
+    stages::StagesResult,
+    thrust::ThrustResult,
+};
+use crate::{
+    terms::{Found, LeftOutContacts, Outcome, StateMotion},
+    verdict::mechanism::{JointMotion, Mechanism},
+};
+use base::error::Finding;
+use model::interface::Model;
+use schemars::JsonSchema;
+use serde::Serialize;
+use std::sync::Arc;
+
+/// What is told: the answer, and what stands beside it.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct Told {
+    /// The answer to the question; of a tilt in several directions, of a train on its way the least.
+    #[serde(flatten)]
+    pub answer: Answer,
+    /// The evidence for it.
+    #[serde(skip)]
+    pub certificate: Arc<Certificate>,
+    /// Tilt and kinematic: every direction asked for. Moving: every position of the train.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub directions: Vec<Direction>,
+    /// Whether it stands under its dead load alone, where that was asked as well.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dead_load: Option<Direction>,
+    /// The load factor with dry friction.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dry: Option<DryResult>,
+    /// What the state under dry friction does, where it was computed.
+    #[serde(rename = "state_under_dry_friction", skip_serializing_if = "Option::is_none")]
+    pub motion: Option<StateMotion>,
+    /// Critical: the scan and both sides of every flip.
+    #[serde(rename = "search", skip_serializing_if = "Option::is_none")]
+    pub critical: Option<CriticalResult>,
+    /// Thrust: the line of thrust.
+    #[serde(rename = "line_of_thrust", skip_serializing_if = "Option::is_none")]
+    pub thrust: Option<ThrustResult>,
+    /// Settle, push and kinematic: the curve.
+    #[serde(rename = "curve", skip_serializing_if = "Option::is_none")]
+    pub path: Option<PathResult>,
+    /// Kinematic: the curve with members.
+    #[serde(rename = "curve_with_members", skip_serializing_if = "Option::is_none")]
+    pub path_with_members: Option<PathResult>,
+    /// Stages: every one.
+    #[serde(rename = "each_stage", skip_serializing_if = "Option::is_none")]
+    pub stages: Option<StagesResult>,
+    /// State: the bound on the live load.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bound: Option<Direction>,
+    /// Rock: the evidence against the direction.
+    #[serde(skip)]
+    pub against: Option<Arc<Certificate>>,
+    /// What happened in time, where it was simulated.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub simulation: Option<Simulation>,
+    /// The mechanism in words.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mechanism: Option<MechanismWords>,
+    /// The forces in the members of the scene, of the forces that prove the answer.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub members: Vec<MemberLine>,
+    /// Contacts that were left out although blocks overlap or nearly touch, where there are such, and
+    /// the answer with them closed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub left_out_contacts: Option<LeftOutContacts>,
+    /// What is to be known about the scene.
+    #[serde(rename = "warnings", skip_serializing_if = "Vec::is_empty")]
+    pub scene_warnings: Vec<Finding>,
+    /// How much there is of it.
+    pub counts: Counts,
+}
+
+/// How much there is of a scene.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct Counts {
+    /// Number of blocks, supports included.
+    pub blocks: usize,
+    /// Number of supports.
+    pub supports: usize,
+    /// Number of interfaces.
+    pub interfaces: usize,
+    /// Number of contact points.
+    pub contact_points: usize,
+    /// Number of members: ties, struts, soil, …
+    #[serde(skip_serializing_if = "is_zero")]
+    pub members: usize,
+}
+
+impl Counts {
+    /// Those of a model.
+    pub fn of(model: &Model) -> Self {
+        Self {
+            blocks: model.assembly.blocks.len(),
+            supports: model.assembly.blocks.iter().filter(|b| b.support).count(),
+            interfaces: model.interfaces.list.len(),
+            contact_points: model.contact_points(),
+            members: model.interfaces.members.len(),
+        }
+    }
+}
+
+impl Told {
+    /// An answer about a model, and nothing else yet.
+    pub(super) fn new(model: &Model, answer: Answer, certificate: &Arc<Certificate>) -> Self {
+        Self {
+            answer,
+            certificate: certificate.clone(),
+            directions: Vec::new(),
+            dead_load: None,
+            dry: None,
+            motion: None,
+            critical: None,
+            thrust: None,
+            path: None,
+            path_with_members: None,
+            stages: None,
+            bound: None,
+            against: None,
+            simulation: None,
+            mechanism: None,
+            members: Vec::new(),
+            left_out_contacts: None,
+            scene_warnings: Vec::new(),
+            counts: Counts::of(model),
+        }
+    }
+}
+
+/// An answer beside the main one, with the evidence for it: one direction of a tilt, one position of
+/// a train, or the dead load alone.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct Direction {
+    /// The answer.
+    pub answer: Answer,
+    /// The evidence for it.
+    #[serde(skip)]
+    pub certificate: Arc<Certificate>,
+    /// A direction of a tilt or an earthquake, a position of a train: its load factor with dry friction.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dry: Option<DryResult>,
+}
+
+impl Direction {
+    /// The tilt that counts, degrees: with dry friction where that is known, else the bound. A
+    /// direction without an answer governs: it must not hide behind the others.
+    pub fn governing(&self) -> f64 {
+        if self.dry.as_ref().is_some_and(|d| d.found == Found::NotAtRest) {
+            return f64::NEG_INFINITY;
+        }
+        let dry = self.dry.as_ref().and_then(|d| d.value).map(|v| v.atan().to_degrees());
+        let bound = self.answer.bound().and_then(|b| match b.status {
+            Outcome::Unbounded => Some(90.0),
+            _ => b.value.map(|v| v.atan().to_degrees()),
+        });
+        dry.or(bound).unwrap_or(f64::NEG_INFINITY)
+    }
+}
+
+/// A mechanism with names.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct MechanismWords {
+    /// Moving blocks, the fastest first.
+    pub moving: Vec<String>,
+    /// Moving joints.
+    pub joints: Vec<JointWords>,
+    /// Members that yield, go slack or slide.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub members: Vec<MemberWords>,
+}
+
+/// A joint of a mechanism with names.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct JointWords {
+    /// The blocks.
+    pub between: [String; 2],
+    /// What it does.
+    pub motion: JointMotion,
+    /// Where, m.
+    pub at: [f64; 3],
+}
+
+impl MechanismWords {
+    /// The words for a mechanism.
+    pub fn new(model: &Model, m: &Mechanism) -> Self {
+        let id = |i: usize| model.assembly.blocks[i].id.clone();
+        Self {
+            moving: m.moving.iter().map(|&i| id(i)).collect(),
+            joints: m
+                .joints
+                .iter()
+                .map(|j| {
+                    let face = &model.interfaces.list[j.interface];
+                    JointWords {
+                        between: [id(face.a), id(face.b)],
+                        motion: j.motion,
+                        at: j.at.into(),
+                    }
+                })
+                .collect(),
+            members: m
+                .members
+                .iter()
+                .map(|m| MemberWords {
+                    member: model.interfaces.members[m.member].id.clone(),
+                    motion: m.motion,
+                })
+                .collect(),
+        }
+    }
+}
+
+fn is_zero(n: &usize) -> bool {
+    *n == 0
+}

@@ -1,0 +1,78 @@
+//! Options of the question.
+
+use super::check_directions;
+use crate::terms::Law;
+use base::error::{InputError, JsonPath};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Options of `stages`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct StagesOptions {
+    /// How joints slide.
+    pub law: Law,
+    /// In place of the stages of the scene: the scene without each of its free blocks.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub remove_each: bool,
+    /// In place of the stages of the scene: an order in which its free blocks can be placed one by
+    /// one, so that it stands all the time with as few of them held as can be.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub any_order: bool,
+    /// The same where the order is given: every free block once, `*` for any letters of a name. What
+    /// has to be held on the way is sought.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub order: Vec<String>,
+    /// So many blocks can be held at a time; any number where nothing is said.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hands: Option<usize>,
+    /// Sets of blocks that the search for the least holds looks at, at most, for every structure that
+    /// stands by itself; 5000 where nothing is said.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tries: Option<usize>,
+    /// Tilts towards these directions, where a stage has no live load.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub toward: Vec<[f64; 3]>,
+    /// Tilts towards this many directions, evenly spread, the first along x; 8 where nothing is
+    /// said.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub all: Option<u16>,
+    /// No load factors and no tilts. Rows of a sweep ask for none: a plan has no such key.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub skip_margin: bool,
+    /// No least forces on what is held. Rows of a sweep ask for none: a plan has no such key.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub skip_held: bool,
+}
+
+/// Most sets that a search for an order looks at: days.
+pub const MOST_TRIES: usize = 1_000_000;
+
+impl StagesOptions {
+    /// Whether an order is asked for, given or sought.
+    pub fn has_order(&self) -> bool {
+        self.any_order || !self.order.is_empty()
+    }
+
+    /// Refuses options of `stages` that mean nothing together.
+    pub(super) fn check(&self, path: &JsonPath) -> Result<(), InputError> {
+        let refuse = |key: &str, text: &str| Err(InputError::at(path.key(key), text));
+        let tilts = self.all.is_some() || !self.toward.is_empty();
+        if self.remove_each && tilts {
+            return refuse("remove_each", "no tilts are asked for where blocks are taken out");
+        }
+        if self.any_order && !self.order.is_empty() {
+            return refuse("any_order", "an order is given and sought");
+        }
+        match (self.has_order(), self.remove_each) {
+            (true, true) => refuse("remove_each", "blocks are placed and taken out"),
+            (true, false) if tilts => refuse("toward", "no tilts are asked for where an order is"),
+            (false, _) if self.hands.is_some() => refuse("hands", "no order is asked for"),
+            (false, _) if self.tries.is_some() => refuse("tries", "no order is asked for"),
+            (true, false) if self.tries.is_some_and(|n| !(1..=MOST_TRIES).contains(&n)) => {
+                refuse("tries", &format!("must be from 1 to {MOST_TRIES}"))
+            }
+            _ => check_directions(path, &self.toward, self.all),
+        }
+    }
+}
