@@ -84,7 +84,7 @@ fn stages(c: &mut Criterion) {
         }
         let limited = Limited { bound: answer, dry: None, dead: None };
         group.bench_function(BenchmarkId::new("result file", blocks), |b| {
-            b.iter(|| saved::load_factor(&scene, model, &limited))
+            b.iter(|| saved::load_factor(&scene, model, &limited).unwrap())
         });
     }
     group.finish();

@@ -10,8 +10,8 @@ fuzz_target!(|bytes: &[u8]| {
     match read::read_str("fuzzed", text) {
         Err(e) => voussoir_fuzz::said(&e),
         Ok(file) => {
-            if voussoir_fuzz::is_small(&file.scene.input) {
-                let _ = verify(&file, &file.scene.input).map_err(|e| voussoir_fuzz::said(&e));
+            if voussoir_fuzz::is_small(&file.scene) {
+                let _ = verify(&file, &file.scene).map_err(|e| voussoir_fuzz::said(&e));
             }
         }
     }

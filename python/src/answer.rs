@@ -8,7 +8,10 @@ use std::sync::{Arc, OnceLock};
 use voussoir::{
     dynamics::Frame,
     interface::{Model, prepare},
-    proof::{PackingFile, ResultFile, VerificationFile, certificate::Certificate, read, verify},
+    proof::{
+        PackingFile, ResultFile, VerificationFile, certificate::Certificate, read,
+        recompute::JustComputed, verify, verify::verify_model,
+    },
     report::{
         drawing::{self, Aspect},
         gltf, json, obj, page, path,
@@ -117,14 +120,26 @@ impl Answer {
     /// Reads a saved result.
     #[staticmethod]
     fn read(py: Python, name: String, text: String) -> PyResult<Self> {
-        let file = read::read_str(name, text).map_err(|e| Trouble::from(e).raise(py))?;
-        let kept = Kept { file, model: OnceLock::new(), film: Vec::new(), packed: None };
+        let read = || -> Result<Kept, Trouble> {
+            let saved = read::read_str(name.clone(), text)?;
+            let model = prepare(&saved.scene)?;
+            // What only a solver can do again is left to `verify`.
+            let found = verify_model(&saved, &saved.scene, &model, &JustComputed);
+            let fails = found.parts.iter().flat_map(|(title, f)| f.fails.first().zip(Some(title)));
+            if let Some((why, title)) = fails.take(1).next() {
+                return Err(Trouble::other(format!("{name} is refuted: {title}: {why}")));
+            }
+            let file = found.file.ok_or_else(|| Trouble::other(format!("{name} is refuted")))?;
+            let model = OnceLock::from(Arc::new(model));
+            Ok(Kept { file, model, film: Vec::new(), packed: None })
+        };
+        let kept = py.detach(read).map_err(|e| e.raise(py))?;
         Ok(Self { kept: Arc::new(kept) })
     }
 
     /// What was asked.
     fn question<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        Ok(pythonize(py, &self.kept.file.question.kind())?)
+        Ok(pythonize(py, self.kept.file.question.word())?)
     }
 
     /// A part of the result as plain values; `None` where it has none.
@@ -137,18 +152,18 @@ impl Answer {
             "directions" => {
                 pythonize(py, &f.directions.iter().map(|d| &d.answer).collect::<Vec<_>>())?
             }
-            "doubt" => pythonize(py, &f.doubt)?,
+            "doubt" => pythonize(py, &f.run.doubt)?,
             "left_out_contacts" => pythonize(py, &f.left_out_contacts)?,
-            "left_out" => pythonize(py, &f.left_out)?,
+            "left_out" => pythonize(py, &f.run.left_out)?,
             "simulation" => pythonize(py, &f.simulation)?,
             "path" => pythonize(py, &f.path)?,
             "thrust" => pythonize(py, &f.thrust)?,
             "critical" => pythonize(py, &f.critical)?,
-            "coulomb_state" => pythonize(py, &f.coulomb_state)?,
+            "state_under_dry_friction" => pythonize(py, &f.motion)?,
             "dry" => pythonize(py, &f.dry)?,
-            "timings" => pythonize(py, &f.timings)?,
-            "work" => pythonize(py, &f.work)?,
-            "scene" => pythonize(py, &f.scene)?,
+            "timings" => pythonize(py, &f.run.timings)?,
+            "work" => pythonize(py, &f.run.work)?,
+            "scene" => pythonize(py, &f.scene.counts)?,
             "packing" => pythonize(py, &self.kept.packed.as_ref().map(|p| &p.file))?,
             _ => return Err(PyKeyError::new_err(name.to_string())),
         })
@@ -177,7 +192,7 @@ impl Answer {
         which: &str,
     ) -> PyResult<Option<(Bound<'py, PyAny>, Vec<String>)>> {
         let Some(certificate) = self.certificate(which) else { return Ok(None) };
-        Ok(Some((pythonize(py, &certificate.claim)?, certificate.verified().clone())))
+        Ok(Some((pythonize(py, &certificate.claim)?, certificate.verified().to_vec())))
     }
 
     /// The forces of a certificate in flat arrays; `None` where there is none.
@@ -354,13 +369,16 @@ impl Answer {
         let kept = self.kept.clone();
         let verification = crate::wait::run(py, None, move |_| {
             let scene = other.as_ref().map_or(&kept.file.scene.input, |r| &*r.scene);
-            verify(&kept.file, scene).map_err(|e| match &other {
+            let saved = kept.file.saved().map_err(Trouble::other)?;
+            verify(&saved, scene).map_err(|e| match &other {
                 Some(ready) => ready.located(e),
                 None => e.into(),
             })
         })?;
         let file = &self.kept.file;
-        let words = text::verification(file, &verification, Layout::default()).to_string();
+        let found = verification.file.as_ref();
+        let words = text::verification(&file.scene.name, found, &verification, Layout::default());
+        let words = words.to_string();
         let plain = pythonize(py, &VerificationFile::new(&file.scene.name, &verification))?;
         Ok((plain, words))
     }

@@ -145,7 +145,7 @@ fn answer(
     let file = match question {
         Question::Simulate(options) => {
             let options = SimulateOptions { load_factor: None, ..options.clone() };
-            let outcome = session.in_time(Question::Simulate(options), &mut film)?;
+            let outcome = session.in_time(Question::Simulate(options.clone()), &mut film)?;
             let verdict =
                 manner.verdict.map(|law| session.ask(&Question::Assess(AssessOptions { law })));
             let verdict = verdict.transpose()?;
@@ -154,13 +154,14 @@ fn answer(
                 _ => None,
             };
             let Found::Simulate(seen) = &outcome else { return Err(none()) };
-            let mut file = saved::simulated(&ready.scene, &model, assessment, seen);
+            let made = saved::simulated(&options, &ready.scene, &model, assessment, seen);
+            let mut file = made.map_err(|e| ready.located(e))?;
             file.run.doubt = doubt(&outcome, &model, &control);
             file
         }
         Question::Shake(_) => {
             let found = session.in_time(question.clone(), &mut film)?;
-            saved::of(&ready.scene, &model, &found).ok_or_else(none)?
+            saved::of(question, &ready.scene, &model, &found).map_err(|e| ready.located(e))?
         }
         Question::Repose(options) => {
             let found = session.ask(question)?;
@@ -168,9 +169,9 @@ fn answer(
             let made = saved::packing(&ready.scene, options.moving_mass, packing);
             let made = made.map_err(|e| ready.located(e))?;
             let (mut file, proof) = made.ok_or_else(none)?;
-            file.run.timings.check = proof.timings.check;
-            file.run.timings.solve = (begin.elapsed().as_secs_f64() - file.run.timings.check).max(0.0);
-            file.run.doubt = doubt(&found, &model, &control);
+            file.timings.check = proof.run.timings.check;
+            file.timings.solve = (begin.elapsed().as_secs_f64() - file.timings.check).max(0.0);
+            file.doubt = doubt(&found, &model, &control);
             // The round with the answer: grains that fell earlier are gone.
             let own = prepare(&proof.scene.input).map_err(|e| ready.located(e))?;
             let packed = Packed { file, scene: ready.scene.clone() };
@@ -180,16 +181,18 @@ fn answer(
         _ => {
             let found = session.ask(question)?;
             let made = saved::of_question(question, &ready.scene, &model, &found, &control);
-            let mut file = made.ok_or_else(none)?;
+            let mut file = made.map_err(|e| ready.located(e))?;
             let doubt =
                 matches!(file.answer.verdict(), Some(Verdict::Conditional | Verdict::Undecided));
             if let Found::Assess(assessment) = &found
                 && (manner.simulate == Beside::Always
                     || (manner.simulate == Beside::InDoubt && doubt))
+                && let options = SimulateOptions::default()
                 && let Found::Simulate(outcome) =
-                    session.in_time(Question::Simulate(SimulateOptions::default()), &mut film)?
+                    session.in_time(Question::Simulate(options.clone()), &mut film)?
             {
-                file = saved::with_simulation(file, &model, Some(assessment), &outcome);
+                let with = saved::with_simulation(&file, &options, &model, assessment, &outcome);
+                file = with.map_err(|e| ready.located(e))?;
             }
             file
         }
@@ -199,7 +202,8 @@ fn answer(
         file.run.timings.simulate = s.runs.iter().map(|r| r.seconds).sum();
     }
     file.run.timings.solve =
-        (begin.elapsed().as_secs_f64() - file.run.timings.simulate - file.run.timings.check).max(0.0);
+        (begin.elapsed().as_secs_f64() - file.run.timings.simulate - file.run.timings.check)
+            .max(0.0);
     file.run.work = Some(Work::of(&file, &model));
     Ok(Answer::new(file, model, film, None))
 }

@@ -42,6 +42,11 @@ pub use agreement::agreement;
 pub use ask::{Answer, Limited, Tilted, ask, ask_among, ask_on};
 pub use assess::{Assessment, assess};
 pub use check::ground::ShakeOptions;
+pub use check::question::{
+    self, AssessOptions, ControlPoint, CriticalOptions, KinematicOptions, LimitOptions,
+    MovingOptions, PushOptions, Question, ReposeOptions, SettleOptions, SimulateOptions,
+    StagesOptions, StateOptions, SupportMove, ThrustOptions, TiltOptions,
+};
 pub use check::rocking::{RockOptions, RockPoint};
 pub use check::terms::{Closed, Difference, Doubt, DoubtCause, LeftOutContacts};
 pub use check::{
@@ -56,11 +61,6 @@ pub use ladder::Control;
 pub use limit::{LoadFactor, limit};
 pub use moving::Moving;
 pub use proved::{Claims, Proved};
-pub use check::question::{
-    self, AssessOptions, ControlPoint, CriticalOptions, KinematicOptions, LimitOptions,
-    MovingOptions, PushOptions, Question, ReposeOptions, SettleOptions, SimulateOptions,
-    StagesOptions, StateOptions, SupportMove, ThrustOptions, TiltOptions,
-};
 pub use rocking::Rocking;
 pub use stability::{Packing, Stability, stability};
 pub use stages::{Stages, stages};

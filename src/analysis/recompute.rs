@@ -7,13 +7,8 @@ use crate::{
 use base::error::InputError;
 use check::{
     proof::{
-        self,
-        Saved,
-        recompute::Recompute,
-        rocking::RockingAnswer,
-        shaken::ShakenAnswer,
-        simulation::Seen,
-        verify::Verified,
+        self, Saved, recompute::Recompute, rocking::RockingAnswer, shaken::ShakenAnswer,
+        simulation::Seen, verify::Verified,
     },
     rocking::RockOptions,
     terms::{ClosedAnswer, Law, Order, StateMotion, Stop},

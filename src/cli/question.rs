@@ -276,9 +276,10 @@ impl<'a> Session<'a> {
         if let Some(s) = &file.simulation {
             file.run.timings.simulate = s.runs.iter().map(|r| r.seconds).sum();
         }
-        file.run.timings.solve =
-            (self.start.elapsed().as_secs_f64() - file.run.timings.simulate - file.run.timings.check)
-                .max(0.0);
+        file.run.timings.solve = (self.start.elapsed().as_secs_f64()
+            - file.run.timings.simulate
+            - file.run.timings.check)
+            .max(0.0);
         file.run.work = Some(Work::of(&file, &self.model));
         let scene = match self.common.scene.to_string_lossy() {
             name if name == "-" => "SCENE".into(),

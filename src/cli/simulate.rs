@@ -87,9 +87,8 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
         Some(Answer::Assess(a)) => Some(a),
         _ => None,
     };
-    let mut file =
-        saved::simulated(&options, &session.scene, &session.model, assessment, outcome)
-            .map_err(|e| session.refuse(e))?;
+    let mut file = saved::simulated(&options, &session.scene, &session.model, assessment, outcome)
+        .map_err(|e| session.refuse(e))?;
     file.run.doubt = doubt(&answer, &session.model, &session.control());
     let file = session.answer_seen(terminal, &args.options(), Depicted::Scene(film), file)?;
     // What is proved to fall does not stand because it was seen to.

@@ -50,9 +50,11 @@ impl KeptPath {
             "question": question,
         });
         let kept = Kept::<Piece>::open(file, "voussoir-path/2", of)?;
-        let before = kept.there.iter().cloned().reduce(|before, next| Piece {
-            path: before.path.and(next.path),
-        });
+        let before = kept
+            .there
+            .iter()
+            .cloned()
+            .reduce(|before, next| Piece { path: before.path.and(next.path) });
         // The start is no place to go on from.
         let before = before.filter(|b| b.path.points.last().is_some_and(|p| !p.poses.is_empty()));
         Ok(Self { kept, before })

@@ -6,7 +6,7 @@
 #![allow(clippy::expect_used, clippy::panic)]
 
 use serde_json::{Value, json};
-use voussoir_check::proof::{read::read_str, recompute::Nothing, verify, verify::Verification};
+use voussoir_check::proof::{read::read_str, recompute::Nothing, verify, verify::Verified};
 
 const FALLS: &str = include_str!("falls.json"); // assess structures/semicircular-arch-thin.json
 const STANDS: &str = include_str!("stands.json"); // assess structures/semicircular-arch-thick.json
@@ -17,9 +17,9 @@ const TILT: &str = include_str!("tilt.json"); // tilt structures/block-in-groove
 const THRUST: &str = include_str!("thrust.json"); // thrust structures/flat-arch.json
 const CRITICAL: &str = include_str!("critical.json"); // critical structures/semicircular-arch-thick.json --vary /templates/0/arch/thickness --between 0.05 0.3 --scan 5
 
-fn checked(text: &str) -> Verification {
+fn checked(text: &str) -> Verified {
     let file = read_str("result.json", text).expect("a result");
-    let scene = file.scene.input.clone();
+    let scene = file.scene.clone();
     verify(&file, &scene, &Nothing).expect("a scene")
 }
 
@@ -87,6 +87,6 @@ fn forged_results_are_refused() {
 #[test]
 fn a_result_of_another_scene_is_refused() {
     let file = read_str("result.json", FALLS).expect("a result");
-    let other = read_str("result.json", STANDS).expect("a result").scene.input;
+    let other = read_str("result.json", STANDS).expect("a result").scene;
     assert!(verify(&file, &other, &Nothing).expect("a scene").refuted());
 }

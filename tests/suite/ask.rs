@@ -10,7 +10,7 @@ use voussoir::{
     },
     import::{Reach, read_meshes},
     interface::{Model, prepare},
-    proof::{self, ResultFile, saved},
+    proof::{self, ResultFile, Saved, saved as packed, verify::Verified},
     report,
     scene::{Scene, read_file, read_str},
     verdict::Verdict,
@@ -99,10 +99,7 @@ pub fn model(scene: &Scene) -> Model {
 
 /// Writes a result, reads it back and proves it from the scene alone.
 pub fn prove(scene: &Scene, file: &ResultFile) {
-    let text = report::json::pretty(file).expect("JSON");
-    let read = proof::read::read_str("result", text.as_str())
-        .unwrap_or_else(|e| panic!("{}: {e}", scene.name));
-    let found = proof::verify(&read, scene).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
+    let found = check(scene, file);
     let fails: Vec<_> = found
         .parts
         .iter()
@@ -112,16 +109,107 @@ pub fn prove(scene: &Scene, file: &ResultFile) {
         found.proved(),
         "{}: not proved: {fails:#?}\nwarnings {:#?}\ntrace {:#?}",
         scene.name,
-        file.warnings,
-        file.trace
+        file.warnings().collect::<Vec<_>>(),
+        file.run.trace
     );
+}
+
+/// A result as it is read from its file.
+pub fn saved(file: &ResultFile) -> Saved {
+    let text = report::json::pretty(file).expect("JSON");
+    proof::read::read_str("result", text.as_str()).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// What the verification of a result on a scene finds, after a round through its file.
+pub fn check(scene: &Scene, file: &ResultFile) -> Verified {
+    proof::verify(&saved(file), scene).unwrap_or_else(|e| panic!("{}: {e}", scene.name))
+}
+
+/// Whether a result is still called proved after its file was edited.
+pub fn survives(scene: &Scene, file: &ResultFile, edit: impl FnOnce(&mut Value)) -> bool {
+    let honest = file.to_value().expect("JSON");
+    let mut value = honest.clone();
+    edit(&mut value);
+    match proof::read::read_str("edited", value.to_string()) {
+        Ok(read) => proof::verify(&read, scene).is_ok_and(|v| v.proved()),
+        Err(_) => false,
+    }
+}
+
+/// No leaf of what a result tells can be another: each is one that the comparison sees.
+#[track_caller]
+pub fn leaves_hold(file: &ResultFile) {
+    let honest = file.to_value().expect("JSON")["answer"].take();
+    let mut all = Vec::new();
+    leaves(&honest, String::new(), &mut all);
+    assert!(all.len() > 3);
+    for pointer in all {
+        let mut forged = honest.clone();
+        let leaf = forged.pointer_mut(&pointer).expect("a leaf");
+        *leaf = match &*leaf {
+            Value::Number(n) => json!(10.0 * n.as_f64().expect("a number") + 1e-2),
+            Value::String(s) => json!(format!("{s} ")),
+            Value::Bool(b) => json!(!*b),
+            _ => json!(1),
+        };
+        let seen = proof::compare::difference(&forged, &honest);
+        assert_eq!(seen.as_deref(), Some(&pointer[..]));
+    }
+}
+
+/// All leaves, of lists those of the first, a middle and the last item.
+fn leaves(value: &Value, at: String, all: &mut Vec<String>) {
+    match value {
+        Value::Array(list) => {
+            let mut picked = vec![0, list.len() / 2, list.len().saturating_sub(1)];
+            picked.dedup();
+            for k in picked.into_iter().filter(|k| *k < list.len()) {
+                leaves(&list[k], format!("{at}/{k}"), all);
+            }
+        }
+        Value::Object(map) => {
+            map.iter().for_each(|(k, v)| leaves(v, format!("{at}/{k}"), all));
+        }
+        _ => all.push(at),
+    }
+}
+
+/// Edits of what a result follows from, with the answer that follows then: none is called proved.
+#[track_caller]
+pub fn edits_are_refused(scene: &Scene, file: &ResultFile, edits: &[(&str, &dyn Fn(&mut Value))]) {
+    for (what, edit) in edits {
+        for consistent in [false, true] {
+            let survives = survives(scene, file, |value| {
+                let honest = value.clone();
+                edit(value);
+                assert_ne!(*value, honest, "{what} is no edit");
+                if consistent {
+                    told(value);
+                }
+            });
+            assert!(!survives, "{what} is called proved");
+        }
+    }
+}
+
+/// Gives a file the answer that follows from the rest of it, as a forger who knows the program would.
+pub fn told(value: &mut Value) {
+    let Ok(saved) = proof::read::read_str("forged", value.to_string()) else { return };
+    let model = model(&saved.scene);
+    let evidence = (saved.evidence, saved.closed);
+    let known = &proof::recompute::JustComputed;
+    let derived =
+        proof::derive::derive(saved.question, &saved.scene, &model, evidence, saved.run, known);
+    if let Ok(derived) = derived {
+        value["answer"] = derived.file.to_value().expect("JSON")["answer"].take();
+    }
 }
 
 /// Asks a question; the answer as a file, proved from the scene alone.
 pub fn asked(scene: &Scene, question: &Question) -> ResultFile {
     let model = model(scene);
     let answer = voussoir::analysis::ask(question, scene, &model, &Control::default());
-    let file = saved::of(scene, &model, &answer.expect("an answer")).expect("a result");
+    let file = packed::of(question, scene, &model, &answer.expect("an answer")).expect("a result");
     prove(scene, &file);
     file
 }
@@ -138,7 +226,7 @@ pub fn verdict(scene: &Scene, law: Law) -> Verdict {
         scene.name,
         answer.unbalance
     );
-    prove(scene, &saved::assessment(scene, &model, &answer));
+    prove(scene, &packed::assessment(scene, &model, &answer).unwrap());
     answer.verdict
 }
 
@@ -151,7 +239,7 @@ pub fn stands(scene: &Scene) -> bool {
 fn answer(scene: &Scene) -> Proved<LoadFactor> {
     let model = model(scene);
     let limited = Limited { bound: limit(&model, &Control::default()), dry: None, dead: None };
-    prove(scene, &saved::load_factor(scene, &model, &limited));
+    prove(scene, &packed::load_factor(scene, &model, &limited).unwrap());
     limited.bound
 }
 
@@ -172,9 +260,9 @@ pub fn load_factor(scene: &Scene) -> f64 {
 pub fn moving(scene: &Scene) -> f64 {
     let options = MovingOptions { law: Law::Associative, ..MovingOptions::default() };
     let model = model(scene);
-    let answer =
-        voussoir::analysis::ask(&Question::Moving(options), scene, &model, &Control::default());
-    let file = saved::of(scene, &model, &answer.expect("an answer")).expect("a result");
+    let question = Question::Moving(options);
+    let answer = voussoir::analysis::ask(&question, scene, &model, &Control::default());
+    let file = packed::of(&question, scene, &model, &answer.expect("an answer")).expect("a result");
     prove(scene, &file);
     file.answer.load_factor().and_then(|l| l.value).expect("a load factor")
 }
@@ -209,7 +297,7 @@ pub fn tilt_deg(scene: &Scene, toward: [f64; 3]) -> f64 {
     let answer = tilt(&model, toward.into(), &Control::default()).expect("a tilt");
     let angle = answer.angle_deg().expect("an angle");
     let tilted = Tilted { directions: vec![answer], level: None };
-    prove(scene, &saved::tilt(scene, &model, &tilted).expect("a direction"));
+    prove(scene, &packed::tilt(scene, &model, &tilted).expect("a direction"));
     angle
 }
 
@@ -220,10 +308,10 @@ pub fn dry(scene: &Scene) -> (f64, Option<f64>, usize) {
     let l = limit(&model, &Control::default());
     let d = coulomb::load_factor(&model, &l, &Control::default());
     let limited = Limited { bound: l.clone(), dry: Some(d.clone()), dead: None };
-    let file = saved::load_factor(scene, &model, &limited);
+    let file = packed::load_factor(scene, &model, &limited).unwrap();
     prove(scene, &file);
     assert_eq!(
-        file.dry.and_then(|d| d.value),
+        file.dry.as_ref().and_then(|d| d.value),
         d.value,
         "{}: natural map {:.1e}",
         scene.name,

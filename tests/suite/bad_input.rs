@@ -11,8 +11,7 @@ use voussoir::{
     analysis::{Control, assess},
     error::FindingCode,
     interface::prepare,
-    proof::{self, saved},
-    report,
+    proof::saved,
     scene::{Scene, read_bytes, read_str},
     verdict::Verdict,
 };
@@ -181,11 +180,9 @@ fn answered(scene: &Scene) {
         &m,
         &Control { deadline: voussoir::deadline::Deadline::within(10.0), ..Control::default() },
     );
-    let text = report::json::pretty(&saved::assessment(scene, &m, &a)).unwrap();
-    let file =
-        proof::read::read_str("result", text.as_str()).unwrap_or_else(|e| panic!("{e}\n{scene:?}"));
+    let file = saved::assessment(scene, &m, &a).unwrap();
     if file.answer.verdict() != Some(Verdict::Undecided) {
-        let found = proof::verify(&file, scene).unwrap();
+        let found = crate::ask::check(scene, &file);
         assert!(found.proved(), "{scene:?}: {:?}", found.parts);
     }
 }

@@ -2,17 +2,13 @@
 //! those about dry friction are in [`dry`](crate::dry).
 
 use crate::ask::open;
-use serde::Deserialize;
 use serde_json::{Value, json};
 use std::path::PathBuf;
 use voussoir::{
     analysis::{Control, Limited, LoadFactor, Outcome, Proved, assess, coulomb, limit},
     interface::prepare,
-    proof::{
-        ResultFile, answer::LoadFactorAnswer, certificate::DryResult, read::read_str, saved, verify,
-    },
+    proof::{ResultFile, read::read_str, saved, verify},
     scene::Scene,
-    terms::Bound,
     verdict::Verdict,
 };
 
@@ -29,9 +25,9 @@ fn scene(name: &str) -> Scene {
 fn verdict(name: &str) -> Verdict {
     let scene = scene(name);
     let model = prepare(&scene).unwrap();
-    let file = saved::assessment(&scene, &model, &assess(&model, &Control::default()));
+    let file = saved::assessment(&scene, &model, &assess(&model, &Control::default())).unwrap();
     let said = file.answer.verdict().unwrap();
-    assert!(said == Verdict::Undecided || verify(&file, &scene).unwrap().proved(), "{name}");
+    assert!(said == Verdict::Undecided || crate::ask::check(&scene, &file).proved(), "{name}");
     println!("{name}: {said:?}");
     said
 }
@@ -43,7 +39,8 @@ fn limits(name: &str) -> (Proved<LoadFactor>, ResultFile) {
     let bound = limit(&model, &Control::default());
     let has_dry = matches!(bound.outcome, Outcome::Found | Outcome::Unbounded);
     let dry = has_dry.then(|| coulomb::load_factor(&model, &bound, &Control::default()));
-    let file = saved::load_factor(&scene, &model, &Limited { dry, ..bound.clone().into() });
+    let file =
+        saved::load_factor(&scene, &model, &Limited { dry, ..bound.clone().into() }).unwrap();
     println!(
         "{name}: {:?} {:?} in {:?}, dry {:?}",
         bound.outcome,
@@ -86,32 +83,39 @@ fn forged_results_of_the_findings_are_refused() {
         let text = std::fs::read_to_string(&path).unwrap();
         let error = read_str("forged", text.as_str()).unwrap_err().to_string();
         assert!(error.contains("version 1") && error.contains("--save"), "{error}");
-        let file = in_version_2(serde_json::from_str(&text).unwrap());
-        let found = verify(&file, &file.scene.input);
-        assert!(!found.as_ref().is_ok_and(|v| v.proved()), "{}", path.display());
-        println!(
-            "{}: {:?}",
-            path.display(),
-            found.map(|v| v.parts.into_iter().flat_map(|p| p.1.fails).collect::<Vec<_>>())
-        );
+        // What it says, with its evidence in the place where it stands today.
+        let old: Value = serde_json::from_str(&text).unwrap();
+        let Some(file) = in_version_3(&old) else { continue };
+        let scene = read_scene(&old["scene"]["input"]);
+        let saved = read_str("forged", file.to_string());
+        let found = saved.map(|saved| verify(&saved, &scene));
+        let proved = found.is_ok_and(|found| found.is_ok_and(|v| v.proved()));
+        assert!(!proved, "{}", path.display());
     }
 }
 
-/// A forgery of the first version as its maker would write it today: what follows from what,
-/// follows.
-fn in_version_2(mut file: Value) -> ResultFile {
-    file["format"] = json!("voussoir-result/2");
-    let dry = file.get("dry").map(|dry| DryResult::deserialize(dry).unwrap());
-    if let Some(said) = file["answer"].get("load_factor") {
-        let key = |key: &str| said.get(key).and_then(Value::as_f64);
-        let status = Deserialize::deserialize(&said["status"]).unwrap();
-        let bound = Bound { status, value: key("value"), lower: key("lower"), upper: key("upper") };
-        file["answer"]["load_factor"] = json!(LoadFactorAnswer::new(bound, dry.as_ref()));
-        if let Some(verdict) = file.pointer("/dead_load/answer/verdict").cloned() {
-            file["answer"]["verdict"] = verdict;
-        }
-    }
-    serde_json::from_value(file).unwrap()
+fn read_scene(value: &Value) -> Scene {
+    voussoir::scene::read_str("forged", value.to_string()).unwrap().0
+}
+
+/// A forgery of the first version as its maker would write it today: its evidence, and the answer
+/// that follows from it; nothing where it is of no such form.
+fn in_version_3(old: &Value) -> Option<Value> {
+    let standing = |certificate: &Value| json!({ "certificate": certificate });
+    let word = old["question"].as_str()?;
+    let evidence = match word {
+        "assess" => json!({ "assess": { "standing": standing(&old["certificate"]) } }),
+        "limit" => json!({ "limit": { "factor": { "bound": old["certificate"] } } }),
+        _ => return None,
+    };
+    let mut question = json!({});
+    question[word] = json!({ "law": "associative" });
+    let mut value = json!({
+        "format": "voussoir-result/3", "question": question, "scene": old["scene"]["input"],
+        "evidence": evidence, "answer": {},
+    });
+    crate::ask::told(&mut value);
+    Some(value)
 }
 
 #[test]
@@ -125,7 +129,7 @@ fn no_dry_load_factor_is_above_the_proved_bound() {
     for name in ["dry-above-1192", "dry-above-2872"] {
         let (bound, file) = limits(name);
         assert_eq!(bound.outcome, Outcome::Found, "{name}");
-        if let Some(value) = file.dry.and_then(|d| d.value) {
+        if let Some(value) = file.dry.as_ref().and_then(|d| d.value) {
             let upper = bound.bracket.upper;
             assert!(
                 value <= upper,

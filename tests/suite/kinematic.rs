@@ -8,8 +8,8 @@ use voussoir::{
     analysis::{Control, ControlPoint, KinematicOptions, Law, PushOptions, Question, ask},
     kinematic::Unique,
     proof::{
-        self, Answer, ResultFile, answer::FactorStatus, kinematic::KinematicAnswer,
-        path::PathStatus, saved,
+        Answer, ResultFile, answer::FactorStatus, kinematic::KinematicAnswer, path::PathStatus,
+        saved,
     },
     scene::Scene,
 };
@@ -29,7 +29,7 @@ fn file_of(scene: &Scene, options: KinematicOptions) -> ResultFile {
     let model = model(scene);
     let question = Question::Kinematic(options);
     let answer = ask(&question, scene, &model, &Control::default()).expect("an answer");
-    saved::of(scene, &model, &answer).expect("a result")
+    saved::of(&question, scene, &model, &answer).expect("a result")
 }
 
 /// Asks, and proves the result from the scene alone.
@@ -213,7 +213,7 @@ fn the_curve_is_that_of_push() {
         },
     );
     close(said(&file).alpha0.value.expect("a value"), 0.3736116923, 1e-7);
-    let kinematic = file.path.expect("a curve");
+    let kinematic = file.path.clone().expect("a curve");
     let at: Vec<f64> = kinematic.points.iter().map(|p| p.value).collect();
     let question = Question::Push(PushOptions {
         control,
@@ -222,7 +222,11 @@ fn the_curve_is_that_of_push() {
         from: Vec::new(),
     });
     let answer = ask(&question, &scene, &model, &Control::default()).expect("an answer");
-    let pushed = saved::of(&scene, &model, &answer).expect("a result").path.expect("a curve");
+    let pushed = saved::of(&question, &scene, &model, &answer)
+        .expect("a result")
+        .path
+        .clone()
+        .expect("a curve");
     assert!(pushed.events.len() == kinematic.events.len() && !pushed.events.is_empty());
     let mut compared = 0;
     for p in &kinematic.points {
@@ -329,8 +333,8 @@ fn a_site_changes_no_other_answer() {
             let scene = read(v);
             let model = model(&scene);
             let answer = ask(&question, &scene, &model, &Control::default()).expect("an answer");
-            let file = saved::of(&scene, &model, &answer).expect("a result");
-            (file.answer, file.warnings)
+            let file = saved::of(&question, &scene, &model, &answer).expect("a result");
+            (file.answer.clone(), file.warnings().cloned().collect::<Vec<_>>())
         });
         assert_eq!(a, b);
     }
@@ -438,23 +442,13 @@ fn directions_come_worst_first() {
     // Backwards the floor is nearer to the edge: 0.2 m for 0.4 m.
     let back = said(&file).toward;
     assert!(back[0] < 0.0, "{back:?}");
-    let mut forged = file.clone();
-    forged.directions.swap(0, 1);
-    refused(&scene, &forged, "directions swapped");
-}
-
-#[track_caller]
-fn refused(scene: &Scene, file: &ResultFile, what: &str) {
-    let found = proof::verify(file, scene).expect("a scene");
-    assert!(!found.proved() && found.refuted(), "{what} is called proved");
-}
-
-fn answer(edit: impl Fn(&mut KinematicAnswer)) -> impl Fn(&mut ResultFile) {
-    move |file| {
-        if let Answer::Kinematic(a) = &mut file.answer {
-            edit(a);
-        }
-    }
+    crate::ask::edits_are_refused(
+        &scene,
+        &file,
+        &[("directions swapped", &|v| {
+            v["evidence"]["kinematic"]["directions"].as_array_mut().unwrap().swap(0, 1);
+        })],
+    );
 }
 
 #[test]
@@ -463,90 +457,26 @@ fn edited_results_are_refused() {
     value["site"]["slc"] = json!({ "a_g": 3.5, "f_0": 2.5, "s": 1, "t_c": 0.5 });
     let scene = read(&value);
     let honest = asked(&scene, options([1.0, 0.0, 0.0]));
-    let forge = |what: &str, edit: &dyn Fn(&mut ResultFile)| {
-        let mut file = honest.clone();
-        edit(&mut file);
-        assert_ne!(file, honest, "{what}");
-        refused(&scene, &file, what);
-    };
-    for by in [1.0 + 1e-4, 0.99] {
-        forge(
-            "another α0",
-            &answer(|a: &mut KinematicAnswer| {
-                a.alpha0.value = a.alpha0.value.map(|v| v * by);
-                a.alpha0.associative.value = a.alpha0.value;
-            }),
-        );
-        forge(
-            "another a0",
-            &answer(|a: &mut KinematicAnswer| a.numbers.a0 = a.numbers.a0.map(|v| v * by)),
-        );
-        forge(
-            "another e*",
-            &answer(|a: &mut KinematicAnswer| {
-                a.numbers.participation.as_mut().unwrap().e_star *= by
-            }),
-        );
-        forge(
-            "another M*",
-            &answer(|a: &mut KinematicAnswer| a.numbers.participation.as_mut().unwrap().mass *= by),
-        );
-        forge(
-            "another δ",
-            &answer(|a: &mut KinematicAnswer| {
-                a.numbers.participation.as_mut().unwrap().masses[0].delta *= by;
-            }),
-        );
-        forge(
-            "another d0",
-            &answer(|a: &mut KinematicAnswer| a.numbers.capacity.as_mut().unwrap().d0 *= by),
-        );
-        forge(
-            "another state",
-            &answer(|a: &mut KinematicAnswer| {
-                a.numbers.capacity.as_mut().unwrap().exact.as_mut().unwrap().slv.a *= by;
-            }),
-        );
-        forge(
-            "another period",
-            &answer(|a: &mut KinematicAnswer| {
-                a.numbers.capacity.as_mut().unwrap().straight.slc.period *= by;
-            }),
-        );
-        forge(
-            "another ratio",
-            &answer(|a: &mut KinematicAnswer| a.numbers.demand.as_mut().unwrap().ratio *= by),
-        );
-        forge(
-            "another demand",
-            &answer(|a: &mut KinematicAnswer| {
-                a.numbers.demand.as_mut().unwrap().checks[0].demand *= by;
-            }),
-        );
-        forge("another FC", &answer(|a: &mut KinematicAnswer| a.fc *= by));
-        forge("a point moved", &|f| f.path.as_mut().unwrap().points[3].value *= by);
-        forge("a point that holds more", &|f| {
-            let p = &mut f.path.as_mut().unwrap().points[3];
-            p.load_factor = p.load_factor.map(|l| l * by);
-        });
-    }
-    forge("another direction", &answer(|a: &mut KinematicAnswer| a.toward = [0.0, 1.0, 0.0]));
-    forge("no curve", &|f| f.path = None);
-    forge("no word of the curve", &answer(|a: &mut KinematicAnswer| a.curve = None));
-    forge("without members", &answer(|a: &mut KinematicAnswer| a.without_members = true));
-    forge(
-        "another control point",
-        &answer(|a: &mut KinematicAnswer| {
-            a.control.as_mut().unwrap().point = [0.0, 0.0, 3.0];
+    crate::ask::leaves_hold(&honest);
+    type Edit<'a> = (&'a str, &'a dyn Fn(&mut Value));
+    let edits: [Edit; 5] = [
+        ("another direction", &|v| v["question"]["kinematic"]["toward"][0] = json!([0, 1, 0])),
+        ("a point moved", &|v| {
+            let value = &mut v["evidence"]["kinematic"]["curve"]["points"][3]["value"];
+            *value = json!(value.as_f64().unwrap() * 1.001);
         }),
-    );
-    forge("another mechanism", &|f| {
-        f.certificate.rates.iter_mut().for_each(|r| r.velocity[0] *= 1.01);
-    });
-    let mut other = honest.clone();
-    other.scene.input.site.as_mut().unwrap().slv.a_g *= 0.5;
-    let input = other.scene.input.clone();
-    refused(&input, &other, "another site");
+        ("another mechanism", &|v| {
+            let rates = &mut v["evidence"]["kinematic"]["directions"][0]["bound"]["rates"];
+            for rate in rates.as_array_mut().unwrap() {
+                rate["velocity"][0] = json!(rate["velocity"][0].as_f64().unwrap() * 1.01);
+            }
+        }),
+        ("another control point", &|v| {
+            v["evidence"]["kinematic"]["control"]["point"] = json!([0.0, 0.0, 3.0]);
+        }),
+        ("less confidence", &|v| v["question"]["kinematic"]["fc"] = json!(0.9)),
+    ];
+    crate::ask::edits_are_refused(&scene, &honest, &edits);
 }
 
 fn run(args: &[&str]) -> Output {

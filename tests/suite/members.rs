@@ -3,7 +3,7 @@
 //! change nothing.
 
 use crate::ask::{
-    cuboid, fixed, ground, model, outcome, prism, prove, push, scene, template, verdict,
+    cuboid, fixed, ground, model, outcome, prism, prove, push, scene, survives, template, verdict,
 };
 use nalgebra::{Rotation3, Unit, Vector3};
 use proptest::prelude::*;
@@ -17,7 +17,7 @@ use voussoir::{
     },
     dynamics::Fate,
     interface,
-    proof::{self, ResultFile, member::MemberState, saved},
+    proof::{member::MemberState, saved},
     scene::{Scene, read_str},
     verdict::{Verdict, mechanism::MemberMotion},
 };
@@ -48,7 +48,7 @@ fn range_along(scene: &Scene, member: &str, along: Option<[f64; 3]>) -> [Option<
     let m = model(scene);
     let at = thrust::member(&m, member, along).unwrap();
     let answer = thrust::answer(&m, at, Ends::Both, &associative());
-    let file = saved::thrust(scene, &m, &answer);
+    let file = saved::thrust(scene, &m, &answer).unwrap();
     prove(scene, &file);
     let t = file.answer.thrust().expect("it stands").clone();
     [t.least, t.greatest].map(|e| {
@@ -116,7 +116,7 @@ fn mechanisms_and_answers_name_the_members() {
     let mechanism = bound.mechanism.as_ref().unwrap();
     assert_eq!(mechanism.members.len(), 1);
     assert_eq!(mechanism.members[0].motion, MemberMotion::Yields);
-    let file = saved::load_factor(&s, &m, &bound.into());
+    let file = saved::load_factor(&s, &m, &bound.into()).unwrap();
     let [line] = &file.members[..] else { panic!("{:?}", file.members) };
     assert_eq!(line.state, MemberState::AtStrength);
     close("force", line.force, 0.02, 1e-6);
@@ -376,23 +376,13 @@ fn a_block_hangs_on_cables() {
     assert_eq!(outcome(&cube(0.5, json!([]))).0, Outcome::Found);
 }
 
-/// Edits the saved evidence and asks whether it still proves the answer.
-fn survives(scene: &Scene, file: &ResultFile, edit: impl Fn(&mut Value)) -> bool {
-    let mut value = serde_json::to_value(file).unwrap();
-    edit(&mut value);
-    match proof::read::read_str("forged", value.to_string().as_str()) {
-        Ok(read) => proof::verify(&read, scene).is_ok_and(|v| v.proved()),
-        Err(_) => false,
-    }
-}
-
 #[test]
 fn forged_members_are_refused() {
     let s = tied_arch(0.3, json!(0.1), false);
     let m = model(&s);
-    let file = saved::assessment(&s, &m, &analysis::assess(&m, &Control::default()));
+    let file = saved::assessment(&s, &m, &analysis::assess(&m, &Control::default())).unwrap();
     assert!(survives(&s, &file, |_| {}));
-    let force = "/certificate/members/0/force/0";
+    let force = "/evidence/assess/standing/certificate/members/0/force/0";
     type Edit<'a> = (&'a str, &'a dyn Fn(&mut Value));
     let edits: [Edit; 6] = [
         ("beyond its strength", &|v| *v.pointer_mut(force).unwrap() = json!(0.2)),
@@ -401,9 +391,14 @@ fn forged_members_are_refused() {
             let x = v.pointer(force).unwrap().as_f64().unwrap();
             *v.pointer_mut(force).unwrap() = json!(1.001 * x);
         }),
-        ("no force", &|v| v["certificate"]["members"] = json!([])),
-        ("two amounts", &|v| v["certificate"]["members"][0]["force"] = json!([0.05, 0.0])),
-        ("the line says more", &|v| v["members"][0]["force"] = json!(0.09)),
+        ("no force", &|v| {
+            v["evidence"]["assess"]["standing"]["certificate"]["members"] = json!([])
+        }),
+        ("two amounts", &|v| {
+            v["evidence"]["assess"]["standing"]["certificate"]["members"][0]["force"] =
+                json!([0.05, 0.0])
+        }),
+        ("the line says more", &|v| v["answer"]["members"][0]["force"] = json!(0.09)),
     ];
     for (what, edit) in edits {
         assert!(!survives(&s, &file, edit), "{what}");
@@ -411,23 +406,24 @@ fn forged_members_are_refused() {
     // A mechanism that lengthens a tie as if it were not there, and one that calls it slack.
     let s = tied_arch(0.3, json!(0.013), false);
     let m = model(&s);
-    let file = saved::assessment(&s, &m, &analysis::assess(&m, &Control::default()));
+    let file = saved::assessment(&s, &m, &analysis::assess(&m, &Control::default())).unwrap();
     assert!(survives(&s, &file, |_| {}));
     let mut strong = s.clone();
     strong.members[0].tie.as_mut().unwrap().strength = voussoir::scene::member::Strength::Infinite;
     assert!(!survives(&strong, &file, |_| {}), "the tie never yields");
-    assert!(!survives(&s, &file, |v| v["mechanism"]["members"] = json!([])), "unnamed");
+    assert!(!survives(&s, &file, |v| v["answer"]["mechanism"]["members"] = json!([])), "unnamed");
     // A range that claims more than it proves.
     let s = tied_arch(0.3, json!("infinite"), false);
     let m = model(&s);
     let at = thrust::member(&m, "tie", None).unwrap();
-    let file = saved::thrust(&s, &m, &thrust::answer(&m, at, Ends::Both, &associative()));
+    let file = saved::thrust(&s, &m, &thrust::answer(&m, at, Ends::Both, &associative())).unwrap();
     assert!(survives(&s, &file, |_| {}));
-    for end in ["least", "greatest"] {
+    for (k, end) in ["least", "greatest"].into_iter().enumerate() {
         let forged = |v: &mut Value| {
-            for place in
-                [format!("/answer/thrust/{end}"), format!("/thrust/{end}/claim/member_force")]
-            {
+            for place in [
+                format!("/answer/thrust/{end}"),
+                format!("/evidence/thrust/ends/{k}/claim/member_force"),
+            ] {
                 for key in ["value", "lower", "upper"] {
                     let number = v.pointer_mut(&format!("{place}/{key}")).unwrap();
                     *number = json!(number.as_f64().unwrap() * 1.01);
@@ -512,26 +508,29 @@ fn a_dowels_direction_is_in_its_joint() {
     let answer =
         thrust::answer(&m, thrust::member(&m, "d", along).unwrap(), Ends::Both, &associative());
     let s = doweled(json!(0.1), [0.35, 0.0]);
-    let file = saved::thrust(&s, &m, &answer);
+    let file = saved::thrust(&s, &m, &answer).unwrap();
     assert!(survives(&s, &file, |_| {}));
     assert!(!survives(&s, &file, |v| v["answer"]["thrust"]["direction"] = json!([-1, 0, 0])));
     assert!(!survives(&s, &file, |v| {
         v["answer"]["thrust"]["direction"] = json!([0, 1, 0]);
-        for end in ["least", "greatest"] {
-            v["thrust"][end]["claim"]["member_force"]["along"] = json!([0, 1, 0]);
+        for end in [0, 1] {
+            v["evidence"]["thrust"]["ends"][end]["claim"]["member_force"]["along"] =
+                json!([0, 1, 0]);
         }
     }));
     assert!(!survives(&s, &file, |v| {
         v["answer"]["thrust"]["direction"] = json!([2, 0, 0]);
-        for end in ["least", "greatest"] {
-            v["thrust"][end]["claim"]["member_force"]["along"] = json!([2, 0, 0]);
+        for end in [0, 1] {
+            v["evidence"]["thrust"]["ends"][end]["claim"]["member_force"]["along"] =
+                json!([2, 0, 0]);
         }
     }));
-    for end in ["least", "greatest"] {
+    for (k, end) in ["least", "greatest"].into_iter().enumerate() {
         assert!(!survives(&s, &file, |v| {
-            for place in
-                [format!("/answer/thrust/{end}"), format!("/thrust/{end}/claim/member_force")]
-            {
+            for place in [
+                format!("/answer/thrust/{end}"),
+                format!("/evidence/thrust/ends/{k}/claim/member_force"),
+            ] {
                 for key in ["value", "lower", "upper"] {
                     let number = v.pointer_mut(&format!("{place}/{key}")).unwrap();
                     *number = json!(number.as_f64().unwrap() * 0.99);
@@ -690,7 +689,7 @@ fn a_simulation_says_that_it_has_no_grips() {
 fn scenes_without_members_say_nothing_of_them() {
     let s = cube(0.5, json!([]));
     let m = model(&s);
-    let file = saved::assessment(&s, &m, &analysis::assess(&m, &Control::default()));
+    let file = saved::assessment(&s, &m, &analysis::assess(&m, &Control::default())).unwrap();
     assert!(!serde_json::to_string(&file).unwrap().contains("members"));
 }
 

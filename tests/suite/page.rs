@@ -8,7 +8,7 @@ use voussoir::{
     analysis::{Control, Limited, assess, limit},
     dynamics::{Fidelity, Frame, Pose},
     interface::prepare,
-    proof::saved,
+    proof::{read, recompute::JustComputed, saved, verify::verify_model},
     report::{
         page,
         text::{Asked, Layout, TextOptions, render},
@@ -200,7 +200,7 @@ fn a_picture_does_not_depend_on_units() {
     let view = |scene: &Scene| -> Value {
         let model = prepare(scene).unwrap();
         let answer = assess(&model, &Control::default());
-        let file = saved::assessment(scene, &model, &answer);
+        let file = saved::assessment(scene, &model, &answer).unwrap();
         let view = View::new(&model, &file, Vec::new()).unwrap();
         let text = render(
             &file,
@@ -260,10 +260,15 @@ fn a_page_of_5000_blocks_stays_below_10_mb() {
         Control { deadline: voussoir::deadline::Deadline::within(0.0), ..Control::default() };
     let bound = limit(&model, &control);
     let dead = Some(assess(&model, &control));
-    let mut file = saved::load_factor(&scene, &model, &Limited { dead, ..bound.into() });
-    for (face, contact) in model.interfaces.list.iter().zip(&mut file.certificate.forces) {
-        contact.forces.iter_mut().for_each(|f| *f = face.frame.n.into());
+    let file = saved::load_factor(&scene, &model, &Limited { dead, ..bound.into() }).unwrap();
+    let mut value = file.to_value().unwrap();
+    let forces = &mut value["evidence"]["limit"]["factor"]["bound"]["forces"];
+    for (face, contact) in model.interfaces.list.iter().zip(forces.as_array_mut().unwrap()) {
+        let normal: [f64; 3] = face.frame.n.into();
+        contact["forces"].as_array_mut().unwrap().fill(json!(normal));
     }
+    let saved = read::read_str("result", value.to_string()).unwrap();
+    let file = verify_model(&saved, &scene, &model, &JustComputed).file.unwrap();
     let mut film = Film::fitting(count);
     for k in 0..500 {
         let pose = |b: &voussoir::assembly::Block| Pose {

@@ -38,9 +38,7 @@ fn asked(scene: &Scene, question: &Value) -> ResultFile {
     let question: Question = serde_json::from_value(question.clone()).expect("a question");
     let model = model(scene);
     let answer = ask(&question, scene, &model, &Control::default()).expect("an answer");
-    let file = saved::of(scene, &model, &answer).expect("a result");
-    // As it is read again.
-    serde_json::from_str(&serde_json::to_string(&file).expect("text")).expect("a result")
+    saved::of(&question, scene, &model, &answer).expect("a result")
 }
 
 #[test]
@@ -50,56 +48,43 @@ fn a_saved_history_is_run_again_and_claims_nothing() {
     let said = honest.answer.shaken().expect("a history");
     assert_eq!(said.fate, ShakenWord::Moves);
     assert!((0.01..0.5).contains(&said.blocks[0].greatest_over_thickness), "{said:?}");
-    let found = verify(&honest, &scene).expect("a scene");
-    assert!(!found.refuted() && !found.proved() && found.computed(), "{found:?}");
+    let found = crate::ask::check(&scene, &honest);
+    assert!(!found.refuted() && found.computed(), "{found:?}");
     assert_eq!(found.unchecked().count(), 0, "{found:?}");
-    let text = serde_json::to_value(&honest).expect("JSON");
+    crate::ask::leaves_hold(&honest);
+    let text = honest.to_value().expect("JSON");
+    // The history, as it is told, is another one.
     let forge = |pointer: &str, value: Value| {
         let mut forged = text.clone();
+        let pointer = format!("/evidence/shake{pointer}");
         let (parent, key) = pointer.rsplit_once('/').expect("a pointer");
-        let parent = forged.pointer_mut(parent).expect("a place");
-        match parent.as_array_mut() {
-            Some(list) => list[key.parse::<usize>().expect("an index")] = value,
-            None => parent[key] = value,
-        }
-        serde_json::from_value::<ResultFile>(forged).ok().map(|file| {
-            let scene = file.scene.input.clone();
-            verify(&file, &scene).expect("a scene")
-        })
+        forged.pointer_mut(parent).expect("a place")[key] = value;
+        crate::ask::told(&mut forged);
+        let saved = voussoir::proof::read::read_str("forged", forged.to_string()).ok()?;
+        Some(verify(&saved, &saved.scene).expect("a scene"))
     };
     for (pointer, value) in [
-        ("/answer/shaken/fate", json!("overturns")),
-        ("/answer/shaken/overturned", json!("block")),
-        ("/answer/shaken/blocks", json!([])),
-        ("/answer/shaken/blocks/0/block", json!("stranger")),
-        ("/answer/shaken/blocks/0/residual_over_thickness", json!(3.0)),
-        ("/answer/shaken/blocks/0/greatest_turn_deg", json!(80.0)),
-        ("/answer/shaken/blocks/0/at", json!(9.0)),
-        ("/answer/shaken/toward", json!([0.0, 1.0, 0.0])),
-        ("/answer/shaken/steps", json!(7)),
-        ("/answer/shaken/stop", json!("fallen")),
-        ("/answer/shaken/asked/toward", json!([0.0, 0.0, 1.0])),
-        ("/answer/shaken/asked/ground/scale", json!(0.0)),
-        ("/certificate/claim", json!("stable")),
-        ("/shaken", json!({ "frames": [{ "time": 0.1, "run": 0, "energy": 0.0, "blocks": [] }] })),
+        ("/fate", json!("overturns")),
+        ("/overturned", json!("block")),
+        ("/blocks", json!([])),
+        ("/steps", json!(7)),
+        ("/stop", json!("fallen")),
+        ("/toward", json!([0.0, 1.0, 0.0])),
+        ("/asked/toward", json!([0.0, 0.0, 1.0])),
+        ("/asked/ground/scale", json!(0.5)),
     ] {
         // What does not even read is refused as well.
         if let Some(found) = forge(pointer, value) {
-            let again = pointer.ends_with("scale") && found.unchecked().next().is_some();
-            assert!(found.refuted() || again, "{pointer} is believed: {found:?}");
+            assert!(found.refuted(), "{pointer} is believed: {found:?}");
         }
     }
     // Numbers that might be so are run again: no other machine's rounding is called a lie, and
     // nothing is confirmed.
-    let way = said.blocks[0].greatest_over_thickness;
-    for (pointer, value) in [
-        ("/answer/shaken/fate", json!("rests")),
-        ("/answer/shaken/blocks/0/greatest_over_thickness", json!(1.01 * way)),
-        ("/answer/shaken/blocks/0/thickness", json!(0.5)),
-        ("/answer/shaken/asked/ground/pulse/half_sine/acceleration", json!(2.9)),
-    ] {
-        let found = forge(pointer, value).expect("a result");
-        assert!(!found.refuted() && found.unchecked().count() == 1, "{pointer}: {found:?}");
+    for (pointer, value) in [("/fate", json!("rests")), ("/step", json!(said.step * 1.0))] {
+        let found = forge(pointer, value.clone()).expect("a result");
+        let same = pointer == "/step";
+        assert!(!found.refuted(), "{pointer}: {found:?}");
+        assert_eq!(found.unchecked().count(), usize::from(!same), "{pointer}: {found:?}");
     }
 }
 

@@ -7,7 +7,7 @@ use voussoir::{
     analysis::{Control, Question, StateOptions, ask},
     elastic::EventKind,
     interface::prepare,
-    proof::{self, ResultFile, member::MemberState, saved, state::StateAnswer},
+    proof::{ResultFile, member::MemberState, saved, state::StateAnswer},
     scene::{Scene, read_str},
 };
 
@@ -233,22 +233,11 @@ fn forged_tensions_are_refused() {
         json!({ "strength": W, "prestress": 100.0 })
     )]);
     let value = pulled(0.5, members);
-    let file = serde_json::to_value(asked(&value)).unwrap();
-    for pointer in [
-        "/members/0/force",
-        "/certificate/members/0/force/0",
-        "/answer/state/members_at_end/0/force",
-    ] {
-        let mut forged = file.clone();
-        let place = forged.pointer_mut(pointer).unwrap_or_else(|| panic!("{pointer}"));
-        *place = json!(place.as_f64().unwrap() * 1.001);
-        let forged: ResultFile = serde_json::from_value(forged).unwrap();
-        assert!(!proof::verify(&forged, &scene(&value)).unwrap().proved(), "{pointer}");
-    }
+    let file = asked(&value);
+    crate::ask::leaves_hold(&file);
     let mut softer = scene(&value);
     softer.members[0].tie.as_mut().unwrap().stiffness = Some(0.9 * K);
-    let file: ResultFile = serde_json::from_value(file).unwrap();
-    assert!(!proof::verify(&file, &softer).unwrap().proved());
+    assert!(!crate::ask::check(&softer, &file).proved());
 }
 
 /// Without a stiffness the key is named; of other kinds what to do.

@@ -197,7 +197,7 @@ fn a_tower_tips_no_later_than_in_one_piece() {
         Question::Limit(LimitOptions { law: Law::Associative, ..LimitOptions::default() });
     let m = model(&scene);
     let answer = ask(&question, &scene, &m, &Control::default()).expect("an answer");
-    let file = saved::of(&scene, &m, &answer).expect("a result");
+    let file = saved::of(&question, &scene, &m, &answer).expect("a result");
     prove(&scene, &file);
     let value = file.answer.load_factor().and_then(|l| l.value).expect("a load factor");
     assert!(value < 2.0 / 6.0 && value > 0.5 * 2.0 / 6.0, "{value}");

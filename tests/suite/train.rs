@@ -5,7 +5,7 @@ use crate::ask::{close, model, prove};
 use serde_json::{Value, json};
 use voussoir::{
     analysis::{Control, Law, MovingOptions, Question, ask},
-    proof::{self, Answer, ResultFile, answer::FactorStatus, moving::MovingAnswer, saved},
+    proof::{ResultFile, answer::FactorStatus, moving::MovingAnswer, saved},
     report::moving,
     scene::{Scene, read_str},
     train::Travel,
@@ -49,7 +49,7 @@ fn file_of(scene: &Scene) -> ResultFile {
         Question::Moving(MovingOptions { law: Law::Associative, ..MovingOptions::default() });
     let model = model(scene);
     let answer = ask(&question, scene, &model, &Control::default()).expect("an answer");
-    saved::of(scene, &model, &answer).expect("a result")
+    saved::of(&question, scene, &model, &answer).expect("a result")
 }
 
 fn said(file: &ResultFile) -> &MovingAnswer {
@@ -167,40 +167,22 @@ fn edited_results_are_refused() {
     let scene = read(&bridge(12, axle([0.8, 2.0], 0.4)));
     let honest = file_of(&scene);
     prove(&scene, &honest);
-    let forge = |what: &str, edit: &dyn Fn(&mut ResultFile)| {
-        let mut file = honest.clone();
-        edit(&mut file);
-        assert_ne!(file, honest, "{what}");
-        let found = proof::verify(&file, &scene).expect("a scene");
-        assert!(found.refuted() && !found.proved(), "{what} is called proved");
-    };
+    crate::ask::leaves_hold(&honest);
     let least = honest.directions.iter().position(|d| d.answer == honest.answer).expect("it");
     let another = (least + 1) % honest.directions.len();
-    forge("a position that is not the least as the answer", &|file| {
-        file.answer = file.directions[another].answer.clone();
-        file.certificate = file.directions[another].certificate.clone();
-    });
-    forge("a step left out", &|file| drop(file.directions.remove(0)));
-    forge("no positions", &|file| file.directions.clear());
-    forge("the certificate of another position", &|file| {
-        file.directions[another].certificate = file.directions[least].certificate.clone();
-    });
-    forge("an axle elsewhere", &|file| {
-        if let Answer::Moving(a) = &mut file.directions[another].answer {
-            a.axles[0].x += 0.1;
-        }
-    });
-    forge("a position beside the way", &|file| {
-        if let Answer::Moving(a) = &mut file.directions[another].answer {
-            a.x = 5.0;
-        }
-    });
-    forge("the worst left out, the next as the answer", &|file| {
-        let gone = file.directions.remove(least);
-        let at = |d: &proof::result::Direction| d.answer.load_factor().and_then(|l| l.value);
-        assert!(file.directions.iter().all(|d| at(d) >= at(&gone)));
-        file.directions[0].answer = gone.answer;
-    });
+    fn positions(v: &mut Value) -> &mut Vec<Value> {
+        v["evidence"]["moving"]["positions"].as_array_mut().expect("positions")
+    }
+    let edits: [(&str, &dyn Fn(&mut Value)); 5] = [
+        ("a step left out", &|v| drop(positions(v).remove(0))),
+        ("no positions", &|v| positions(v).clear()),
+        ("the certificate of another position", &|v| {
+            positions(v)[another]["factor"] = positions(v)[least]["factor"].clone();
+        }),
+        ("a position beside the way", &|v| positions(v)[another]["x"] = json!(5.0)),
+        ("the worst left out", &|v| drop(positions(v).remove(least))),
+    ];
+    crate::ask::edits_are_refused(&scene, &honest, &edits);
 }
 
 #[test]
@@ -270,7 +252,7 @@ fn dry_file(scene: &Scene, every_value: bool) -> ResultFile {
     let question = Question::Moving(MovingOptions { every_value, ..MovingOptions::default() });
     let model = model(scene);
     let answer = ask(&question, scene, &model, &Control::default()).expect("an answer");
-    saved::of(scene, &model, &answer).expect("a result")
+    saved::of(&question, scene, &model, &answer).expect("a result")
 }
 
 /// With dry friction the worst position has its value, and of every other one it is only known that
@@ -297,26 +279,18 @@ fn other_positions_than_the_worst_bear_what_it_does() {
         let Some(own) = there.and_then(|e| e.load_factor.value) else { continue };
         assert!(floor <= own * (1.0 + 1e-6), "x = {}: {floor} {own}", a.x);
     }
-    let forge = |what: &str, by: f64| {
-        let mut file = least.clone();
-        let k = file.directions.iter().position(|d| d.answer.moving().is_some_and(is_at_least));
-        let d = &mut file.directions[k.expect("a position")];
-        let dry = d.dry.as_mut().expect("dry friction");
-        dry.rests_at = dry.rests_at.map(|at| by * at);
-        if let Answer::Moving(a) = &mut d.answer {
-            a.load_factor.lower = dry.rests_at;
-        }
-        let found = proof::verify(&file, &scene).expect("a scene");
-        assert!(found.refuted() && !found.proved(), "{what} is called proved");
-    };
-    forge("a position that bears less than the worst", 0.5);
-    forge("a position that bears more than it does", 50.0);
-    let mut file = least.clone();
-    let k = file.directions.iter().position(|d| d.answer.moving().is_some_and(is_at_least));
-    let other = file.directions[k.expect("a position")].clone();
-    (file.answer, file.certificate, file.dry) = (other.answer, other.certificate, other.dry);
-    let found = proof::verify(&file, &scene).expect("a scene");
-    assert!(found.refuted(), "an answer without a value is called the least");
+    let k = least.directions.iter().position(|d| d.answer.moving().is_some_and(is_at_least));
+    let k = k.expect("a position");
+    for (what, by) in [
+        ("a position that bears less than the worst", 0.5),
+        ("a position that bears more than it does", 50.0),
+    ] {
+        let edit = |v: &mut Value| {
+            let own = &mut v["evidence"]["moving"]["positions"][k]["factor"]["dry"]["rests_at"];
+            *own = json!(by * own.as_f64().expect("a number"));
+        };
+        crate::ask::edits_are_refused(&scene, &least, &[(what, &edit)]);
+    }
     // Tables and charts have the bound where there is no value.
     let chart = moving::chart(&least).expect("a chart");
     assert!(chart.contains("at most") && chart.contains("with dry friction"));

@@ -16,10 +16,10 @@ use check::{
     proof::{
         certificate::Certificate,
         evidence::{
-            AssessEvidence, CriticalEvidence, DryEvidence, Evidence, FactorEvidence,
-            FlipEvidence, HeldEvidence, KinematicEvidence, LimitEvidence, MovingEvidence,
-            PositionEvidence, RockEvidence, ScanPoint, SideEvidence, StageEvidence,
-            StagesEvidence, Standing, StateEvidence, StepEvidence, ThrustEvidence, TiltEvidence,
+            AssessEvidence, CriticalEvidence, DryEvidence, Evidence, FactorEvidence, FlipEvidence,
+            HeldEvidence, KinematicEvidence, LimitEvidence, MovingEvidence, PositionEvidence,
+            RockEvidence, ScanPoint, SideEvidence, StageEvidence, StagesEvidence, Standing,
+            StateEvidence, StepEvidence, ThrustEvidence, TiltEvidence,
         },
         kinematic::Control,
         state::displacements,
@@ -189,11 +189,7 @@ pub fn flip(f: &Change) -> FlipEvidence {
 fn critical(c: &Critical) -> CriticalEvidence {
     let scan = c.scan.iter().map(|s| {
         let known = s.outcome.as_ref().ok();
-        ScanPoint {
-            value: s.value,
-            verdict: known.map(|k| k.0),
-            unbalance: known.map(|k| k.1),
-        }
+        ScanPoint { value: s.value, verdict: known.map(|k| k.0), unbalance: known.map(|k| k.1) }
     });
     CriticalEvidence {
         whole: c.whole,

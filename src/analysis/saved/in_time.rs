@@ -137,7 +137,11 @@ pub fn rocking_answer(model: &Model, rocking: &Rocking) -> RockingAnswer {
     let bound = |k: usize| {
         let proved = &built.proofs[k].1;
         let bound = Bound::new(proved.outcome, proved.value, proved.bracket);
-        if proved.outcome == crate::Outcome::Found { bound } else { Bound { lower: None, upper: None, ..bound } }
+        if proved.outcome == crate::Outcome::Found {
+            bound
+        } else {
+            Bound { lower: None, upper: None, ..bound }
+        }
     };
     let sense = |k: usize| {
         let sense = built.machine.senses[k].as_ref();

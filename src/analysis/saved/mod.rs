@@ -20,7 +20,8 @@ use crate::{
 use base::error::{Finding, FindingCode, InputError, JsonPath};
 use check::{
     proof::{
-        Derived, Evidence, ResultFile, Run, derive, evidence::{ClosedEvidence, PathEvidence},
+        Derived, Evidence, ResultFile, Run, derive,
+        evidence::{ClosedEvidence, PathEvidence},
         recompute::JustComputed,
     },
     terms::Law,
@@ -86,8 +87,11 @@ pub fn of_path(
     let file = made(question, scene, model, (evidence, None), run)?;
     let refused = file.run.warnings.iter().find(|w| w.text.starts_with(REFUSED));
     match refused.filter(|_| known) {
-        Some(w) => Err(InputError::at(JsonPath::root(), format!("what was kept of the path does not hold: {}", w.text))
-            .hint("begin another file")),
+        Some(w) => Err(InputError::at(
+            JsonPath::root(),
+            format!("what was kept of the path does not hold: {}", w.text),
+        )
+        .hint("begin another file")),
         None => Ok(file),
     }
 }

@@ -43,8 +43,7 @@ pub fn path_evidence(model: &Model, followed: &Followed) -> PathEvidence {
     };
     let least = followed.least.as_ref().map(|(_, forces, rates)| {
         let own = rates.iter().zip(&model.assembly.blocks);
-        let free: Vec<Rate> =
-            own.map(|(r, b)| if b.support { Rate::zero() } else { *r }).collect();
+        let free: Vec<Rate> = own.map(|(r, b)| if b.support { Rate::zero() } else { *r }).collect();
         Certificate::new(model, None, Evidence::new(forces, &free), &Findings::default())
     });
     PathEvidence {

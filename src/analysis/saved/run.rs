@@ -9,12 +9,7 @@ use crate::{
     tilt::Tilt,
 };
 use base::error::{Finding, FindingCode};
-use check::{
-    kinematic::oblique,
-    proof::Run,
-    terms::Attempt,
-    verdict::claim::Claim,
-};
+use check::{kinematic::oblique, proof::Run, terms::Attempt, verdict::claim::Claim};
 use model::interface::Model;
 use scene::Scene;
 

@@ -230,7 +230,9 @@ impl Answer {
     /// asked.
     pub fn verdict(&self) -> Option<Verdict> {
         match self {
-            Self::Verdict(a) | Self::Simulation(SimulationAnswer { verdict: Some(a), .. }) => Some(a.verdict),
+            Self::Verdict(a) | Self::Simulation(SimulationAnswer { verdict: Some(a), .. }) => {
+                Some(a.verdict)
+            }
             Self::Limit(a) => a.verdict,
             Self::Tilt(a) => a.verdict,
             Self::Moving(a) => a.verdict,
@@ -249,7 +251,9 @@ impl Answer {
     /// The verdict with what belongs to it, where it is the answer.
     pub fn as_verdict(&self) -> Option<&VerdictAnswer> {
         match self {
-            Self::Verdict(a) | Self::Simulation(SimulationAnswer { verdict: Some(a), .. }) => Some(a),
+            Self::Verdict(a) | Self::Simulation(SimulationAnswer { verdict: Some(a), .. }) => {
+                Some(a)
+            }
             _ => None,
         }
     }
@@ -322,7 +326,9 @@ impl Answer {
     /// The part of the scene that decides.
     pub fn part(&self) -> Option<&Deciding> {
         match self {
-            Self::Verdict(a) | Self::Simulation(SimulationAnswer { verdict: Some(a), .. }) => a.part.as_ref(),
+            Self::Verdict(a) | Self::Simulation(SimulationAnswer { verdict: Some(a), .. }) => {
+                a.part.as_ref()
+            }
             Self::Limit(a) => a.part.as_ref(),
             Self::Tilt(a) => a.part.as_ref(),
             Self::Moving(a) => a.part.as_ref(),
@@ -334,7 +340,9 @@ impl Answer {
     /// How exactly it is proved.
     pub fn proof(&self) -> Option<Grade> {
         match self {
-            Self::Verdict(a) | Self::Simulation(SimulationAnswer { verdict: Some(a), .. }) => a.proof,
+            Self::Verdict(a) | Self::Simulation(SimulationAnswer { verdict: Some(a), .. }) => {
+                a.proof
+            }
             Self::Limit(a) => a.proof,
             Self::Tilt(a) => a.proof,
             Self::Moving(a) => a.proof,

@@ -69,9 +69,10 @@ impl Compare {
             (Value::Array(a), Value::Array(b)) if a.len() == b.len() => {
                 let size = |v: &Value| v.as_f64().unwrap_or(0.0).abs();
                 let vector = b.iter().map(size).fold(0.0, f64::max);
-                a.iter().zip(b).enumerate().find_map(|(k, (a, b))| {
-                    self.values(a, b, (format!("{at}/{k}"), place), vector)
-                })
+                a.iter()
+                    .zip(b)
+                    .enumerate()
+                    .find_map(|(k, (a, b))| self.values(a, b, (format!("{at}/{k}"), place), vector))
             }
             (Value::Object(a), Value::Object(b)) => {
                 let other = a.keys().find(|k| !b.contains_key(*k));
@@ -137,7 +138,11 @@ mod tests {
             ("/proof/to_rounding", json!(1e-13)),
             ("/proof", json!("exact")),
         ] {
-            assert_eq!(at(pointer, value.clone()).as_deref().map(|p| p.starts_with(pointer)), Some(true), "{pointer} {value}");
+            assert_eq!(
+                at(pointer, value.clone()).as_deref().map(|p| p.starts_with(pointer)),
+                Some(true),
+                "{pointer} {value}"
+            );
         }
         let mut more = here.clone();
         more["b"] = json!(null);

@@ -90,7 +90,11 @@ impl FlipResult {
     /// what the scan leaves.
     pub fn proved(&self) -> Option<CriticalValue> {
         let verdicts = [self.below.verdict()?, self.above.verdict()?];
-        CriticalValue::new((self.value, self.method), [self.below.value, self.above.value], verdicts)
+        CriticalValue::new(
+            (self.value, self.method),
+            [self.below.value, self.above.value],
+            verdicts,
+        )
     }
 }
 

@@ -3,8 +3,8 @@
 //! computed where there is no proof. No verdicts, no sentences.
 
 use super::{
-    certificate::Certificate, kinematic::Control, path::PathEvent, rocking::RockingAnswer, shaken::ShakenAnswer,
-    simulation::Seen,
+    certificate::Certificate, kinematic::Control, path::PathEvent, rocking::RockingAnswer,
+    shaken::ShakenAnswer, simulation::Seen,
 };
 use crate::{
     elastic::PathEnd,

@@ -1,6 +1,7 @@
 //! Results of `kinematic`: what is claimed is a load factor and the points of a curve; all other
 //! numbers are arithmetic on these, done once here, for who answers and for who checks.
 
+use super::certificate::Proven;
 use super::{
     answer::{Answer, LoadFactorAnswer},
     derive::{At, Derivation, failure},
@@ -18,7 +19,6 @@ use crate::{
     terms::{Deciding, Found, Outcome},
     verdict::{Rate, Verdict, evidence::read_rates, exact::Grade},
 };
-use super::certificate::Proven;
 use model::interface::Model;
 use nalgebra::Vector3;
 use scene::Scene;
@@ -217,7 +217,8 @@ pub(super) fn derive(
         let title = format!("earthquake towards {}", base::number::point(unit.into()));
         let at: At = &|_| Ok(quake.model.clone());
         let factor = d.factor(&title, &quake.model, at, (own, o.law), level);
-        let proven = factor.proven.as_ref().filter(|_| factor.answer.associative.status == Outcome::Found);
+        let proven =
+            factor.proven.as_ref().filter(|_| factor.answer.associative.status == Outcome::Found);
         let dry = factor
             .dry
             .as_ref()
@@ -256,8 +257,8 @@ pub(super) fn derive(
         answer.control.clone_from(&e.control);
         let bare = without_members(&worst.quake.model);
         let under = &worst.quake.model;
-        answer.without_members = e.curve.is_some()
-            && bare.interfaces.members.len() < under.interfaces.members.len();
+        answer.without_members =
+            e.curve.is_some() && bare.interfaces.members.len() < under.interfaces.members.len();
         let follow = |d: &mut Derivation, model: &Model, own: &Option<_>| {
             let (Some(own), Some(drive)) = (own, &drive) else { return Ok(None) };
             path::curve(d, model, drive, own).map(Some)
@@ -286,7 +287,8 @@ pub(super) fn derive(
     told.in_words(&worst.quake.model, worst.proven.as_ref());
     (told.path, told.path_with_members) = (curve, tied);
     if several {
-        told.directions = std::iter::once(worst.direction).chain(rest.map(|a| a.direction)).collect();
+        told.directions =
+            std::iter::once(worst.direction).chain(rest.map(|a| a.direction)).collect();
     }
     told.dead_load = dead;
     d.check.claimed = told.answer.proof().is_some();

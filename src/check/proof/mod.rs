@@ -28,9 +28,9 @@ pub mod verify;
 pub mod work;
 
 pub use answer::Answer;
-pub use packing::PackingFile;
 pub use derive::{Derived, Verification, derive};
 pub use evidence::Evidence;
+pub use packing::PackingFile;
 pub use result::{ResultFile, Run, Saved};
 pub use simulation::Simulation;
 pub use verification::VerificationFile;

@@ -159,7 +159,10 @@ pub(super) fn derive(d: &mut Derivation, e: &MovingEvidence) -> Result<Told, Str
         d.answer.moving().zip(worst).is_some_and(|(a, least)| a.bears(least))
     };
     if !all.iter().all(bears) {
-        d.part("answer", failure("a position without a value of its own bears less than the least one"));
+        d.part(
+            "answer",
+            failure("a position without a value of its own bears less than the least one"),
+        );
     }
     let mut told = Told::new(d.model, direction.answer.clone(), &direction.certificate);
     told.in_words(under, proven.as_ref());

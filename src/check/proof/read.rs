@@ -24,10 +24,7 @@ fn version(text: &str) -> Option<String> {
 ///
 /// # Errors
 /// The text is not JSON, or is not a result of a version this program knows.
-pub fn read_str(
-    name: impl Into<String>,
-    text: impl Into<String>,
-) -> Result<Saved, InputError> {
+pub fn read_str(name: impl Into<String>, text: impl Into<String>) -> Result<Saved, InputError> {
     let source = Source::new(name, text);
     if let Some(version) = version(&source.text).filter(|v| v != "3") {
         let message =

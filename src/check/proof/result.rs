@@ -150,6 +150,22 @@ impl ResultFile {
         &self.evidence
     }
 
+    /// The result as it is read from its file.
+    ///
+    /// # Errors
+    /// None that a result can bring about.
+    pub fn saved(&self) -> Result<Saved, serde_json::Error> {
+        Ok(Saved {
+            format: ResultFormat::V3,
+            question: self.question.clone(),
+            scene: self.scene.input.clone(),
+            evidence: self.evidence.clone(),
+            closed: self.closed.clone(),
+            answer: serde_json::to_value(&self.told)?,
+            run: self.run.clone(),
+        })
+    }
+
     /// The answer with contacts closed that were left out, where it was asked.
     pub fn closed(&self) -> Option<&ClosedEvidence> {
         self.closed.as_ref()
@@ -222,8 +238,7 @@ impl Deref for ResultFile {
 #[serde(deny_unknown_fields)]
 pub struct Saved {
     /// The format and its version.
-    #[serde(rename = "format")]
-    pub _format: ResultFormat,
+    pub format: ResultFormat,
     /// What was asked.
     pub question: Question,
     /// The scene, so that the result can be verified on its own.

@@ -339,7 +339,13 @@ pub(super) fn derive(
     for (k, own) in here.iter().enumerate() {
         let there = at_stage(scene, model, own).map_err(|e| format!("{}: {e}", own.name))?;
         let evidence = e.stages.get(k).unwrap_or(&nothing);
-        list.push(stage(d, o, (own, model.ids(&own.holds().collect::<Vec<_>>())), &there, evidence));
+        list.push(stage(
+            d,
+            o,
+            (own, model.ids(&own.holds().collect::<Vec<_>>())),
+            &there,
+            evidence,
+        ));
     }
     let result =
         StagesResult { remove_each: o.remove_each, order: e.order.clone(), hands: o.hands, list };
@@ -388,7 +394,8 @@ fn stage(
     d.part(name.clone(), f);
     let asks_margin = stands && !o.skip_margin && !o.remove_each && !o.has_order();
     let no_margin = no_tilt(model).filter(|_| asks_margin);
-    let margin = (asks_margin && no_margin.is_none()).then(|| margin(d, o, name, model, e)).flatten();
+    let margin =
+        (asks_margin && no_margin.is_none()).then(|| margin(d, o, name, model, e)).flatten();
     if margin.is_none() && (e.limit.is_some() || !e.tilts.is_empty()) {
         d.part(name.clone(), failure("there is evidence for a margin that was not asked for"));
     }
@@ -450,9 +457,9 @@ impl Derivation<'_> {
     ) -> Vec<HeldForce> {
         let touched: Vec<&String> = held.iter().filter(|id| touches(model, id)).collect();
         let complete = o.skip_held
-            || touched.iter().all(|id| {
-                e.least_forces.iter().any(|h| h.block == ***id && is_down(h, model))
-            });
+            || touched
+                .iter()
+                .all(|id| e.least_forces.iter().any(|h| h.block == ***id && is_down(h, model)));
         if !complete {
             self.part(name, failure("the least force on something that it holds is missing"));
         }
@@ -511,7 +518,8 @@ fn least(
 ) -> Result<(HeldForce, Findings), String> {
     let mut f = Findings::default();
     let fits = held.contains(&e.block);
-    let support = model.assembly.find(&e.block).filter(|&i| fits && model.assembly.blocks[i].support);
+    let support =
+        model.assembly.find(&e.block).filter(|&i| fits && model.assembly.blocks[i].support);
     let support = support.ok_or(format!("the stage does not hold {}", e.block))?;
     let along = (Vector3::from(e.direction).norm() - 1.0).abs() <= tolerance::ALONG;
     require(&mut f, along, "its direction is a unit one");

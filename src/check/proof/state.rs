@@ -383,7 +383,8 @@ pub(super) fn derive(
 ) -> Result<Told, String> {
     let model = d.model;
     if e.steps.is_empty() {
-        let dead = d.dead(model, e.standing.as_ref()).ok_or("there is neither a state nor a verdict")?;
+        let dead =
+            d.dead(model, e.standing.as_ref()).ok_or("there is neither a state nor a verdict")?;
         let verdict = match dead.answer.verdict() {
             Some(Verdict::Stable) | None => Verdict::Undecided,
             Some(other) => other,
@@ -503,7 +504,12 @@ fn laws(track: &Track) -> Findings {
 }
 
 /// The path does not reach beyond its bound, and ends where it says.
-fn path(f: &mut Findings, (e, o): (&StateEvidence, &StateOptions), track: &Track, bound: Option<Bound>) {
+fn path(
+    f: &mut Findings,
+    (e, o): (&StateEvidence, &StateOptions),
+    track: &Track,
+    bound: Option<Bound>,
+) {
     let last = track.steps[track.steps.len() - 1].load_factor;
     let live = e.end != PathEnd::None;
     require(

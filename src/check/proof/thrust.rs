@@ -176,8 +176,7 @@ pub(super) fn derive(
     let (low, least_forces) = end(d, (at, Extreme::Least), (format!("least {words}"), least));
     let (high, greatest_forces) =
         end(d, (at, Extreme::Greatest), (format!("greatest {words}"), greatest));
-    d.check.claimed =
-        [&low, &high].into_iter().any(|b: &Bound| b.status != Outcome::Undecided);
+    d.check.claimed = [&low, &high].into_iter().any(|b: &Bound| b.status != Outcome::Undecided);
     let mut shrunk = Vec::new();
     for e in &e.shrunk {
         if !(e.value > 0.0 && e.value <= 1.0) {
@@ -196,11 +195,7 @@ pub(super) fn derive(
         }
         _ => false,
     };
-    require(
-        &mut f,
-        order,
-        "the geometric safety factor lies between those of the shrunk sections",
-    );
+    require(&mut f, order, "the geometric safety factor lies between those of the shrunk sections");
     d.part("answer", f);
     let (support, direction, member) = match at {
         Sought::Thrust(at) => {

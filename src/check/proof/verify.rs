@@ -33,11 +33,7 @@ impl std::ops::Deref for Verified {
 ///
 /// # Errors
 /// The scene cannot be resolved.
-pub fn verify(
-    saved: &Saved,
-    scene: &Scene,
-    again: &dyn Recompute,
-) -> Result<Verified, InputError> {
+pub fn verify(saved: &Saved, scene: &Scene, again: &dyn Recompute) -> Result<Verified, InputError> {
     Ok(verify_model(saved, scene, &prepare(scene)?, again))
 }
 

@@ -1,7 +1,7 @@
 //! What is asked of supports that move.
 
-use base::error::{InputError, JsonPath};
 use crate::path::saved::SavedPose;
+use base::error::{InputError, JsonPath};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

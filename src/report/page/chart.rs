@@ -133,12 +133,8 @@ pub fn attempts(file: &ResultFile) -> Option<Chart> {
         line.points.push([Some(spent), Some(width)]);
         line.hints.push(hint(a, spent, width));
     }
-    let states: Vec<_> = file
-        .run
-        .state_steps
-        .iter()
-        .filter(|s| s.acceleration > 0.0 && s.seconds > 0.0)
-        .collect();
+    let states: Vec<_> =
+        file.run.state_steps.iter().filter(|s| s.acceleration > 0.0 && s.seconds > 0.0).collect();
     if !states.is_empty() {
         let mut line = Series {
             name: "acceleration left with dry friction, g".into(),

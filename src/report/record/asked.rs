@@ -1,12 +1,9 @@
 //! What was asked, and what the number of the answer means.
 
 use base::number::{bracketed, count, ends, fixed, short};
-use check::question::{QuestionKind as Kind};
+use check::question::QuestionKind as Kind;
 use check::{
-    proof::{
-        result::ResultFile,
-        state::StateAnswer,
-    },
+    proof::{result::ResultFile, state::StateAnswer},
     terms::Law,
 };
 

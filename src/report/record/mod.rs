@@ -19,8 +19,8 @@ use section::{listed, percent, quantity};
 
 use super::view::View;
 use crate::drawing::{self, Aspect};
-use check::question::QuestionKind;
 use check::proof::result::ResultFile;
+use check::question::QuestionKind;
 use model::interface::Model;
 
 /// A record, section by section.

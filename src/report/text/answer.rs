@@ -12,11 +12,7 @@ use base::number::{
 };
 use check::question::QuestionKind;
 use check::{
-    proof::{
-        answer::Answer,
-        certificate::DryResult,
-        result::ResultFile,
-    },
+    proof::{answer::Answer, certificate::DryResult, result::ResultFile},
     verdict::{Verdict, claim::Claim},
 };
 
@@ -264,11 +260,12 @@ fn at_rest_to(tangent: f64) -> String {
 /// The load factor with dry friction.
 fn dry(page: &mut Page, file: &ResultFile) {
     let Some(dry) = &file.dry else { return };
-    let words = |v: f64, tilt: fn(f64) -> String, factor: fn(f64) -> String| match file.question.kind() {
-        QuestionKind::Tilt => format!("{}°", tilt(v.atan().to_degrees())),
-        QuestionKind::Kinematic => format!("α = {}", factor(v)),
-        _ => format!("λ = {}", factor(v)),
-    };
+    let words =
+        |v: f64, tilt: fn(f64) -> String, factor: fn(f64) -> String| match file.question.kind() {
+            QuestionKind::Tilt => format!("{}°", tilt(v.atan().to_degrees())),
+            QuestionKind::Kinematic => format!("α = {}", factor(v)),
+            _ => format!("λ = {}", factor(v)),
+        };
     let no_longer = |v: f64| format!(", and no longer at {}", words(v, moving_tilt, moving));
     let words = |v: f64| words(v, computed_tilt, computed);
     let text = match (dry.found, dry.value) {

@@ -19,7 +19,8 @@ pub fn verification(
 ) -> Page {
     let mut page = Page::new(layout);
     let answer = file.map(|f| &f.answer);
-    let in_time = answer.is_some_and(|a| a.shaken().is_some() || a.fate().is_some() && a.verdict().is_none());
+    let in_time =
+        answer.is_some_and(|a| a.shaken().is_some() || a.fate().is_some() && a.verdict().is_none());
     let again = verification.unchecked().next().is_none();
     let (text, role) = match (verification.refuted(), verification.claimed) {
         (true, _) => ("refuted", Role::Bad),
@@ -45,7 +46,9 @@ pub fn verification(
             format!("where it starts is {text}; its history is computed, not proved")
         }
         _ if computed && answer.is_some_and(|a| a.path().is_some()) => {
-            format!("{text}, point by point; that it goes from one to the next is computed, not proved")
+            format!(
+                "{text}, point by point; that it goes from one to the next is computed, not proved"
+            )
         }
         _ if computed => {
             format!("{text}; that states under dry friction rest or move is computed, not proved")

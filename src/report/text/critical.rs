@@ -155,8 +155,7 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
         .iter()
         .filter(|s| s.verdict == Some(Verdict::Undecided))
         .map(|s| format!("{}: undecided", s.value));
-    let lines: Vec<String> =
-        errors.chain(open).chain(why.range.iter().cloned()).collect();
+    let lines: Vec<String> = errors.chain(open).chain(why.range.iter().cloned()).collect();
     page.row("of these", cut(&lines, SHOWN, options));
     if options.verbose {
         let all = c.scan.iter().filter_map(|s| {

@@ -33,11 +33,8 @@ pub use template::template;
 
 use analysis::Attempt;
 use base::number::{count, seconds};
+use check::proof::{result::ResultFile, work::Work};
 use check::question::QuestionKind;
-use check::proof::{
-    result::ResultFile,
-    work::Work,
-};
 use check::verdict::Verdict;
 use solve::Engine;
 

@@ -6,12 +6,7 @@ use base::{
     tolerance,
 };
 use check::{
-    proof::{
-        answer::FactorStatus,
-        moving::MovingAnswer,
-        result::ResultFile,
-        told::Direction,
-    },
+    proof::{answer::FactorStatus, moving::MovingAnswer, result::ResultFile, told::Direction},
     terms::Found,
 };
 use model::train::{self, Position};

@@ -28,9 +28,9 @@ pub use surface::{Surface, ViewShape};
 pub use train::positions;
 
 use base::number::short;
-use check::question::QuestionKind;
 use check::kinematic::quake;
 use check::proof::result::ResultFile;
+use check::question::QuestionKind;
 use check::verdict::section::centroid;
 use dynamics::Frame;
 use model::{

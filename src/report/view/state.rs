@@ -4,10 +4,7 @@ use analysis::{Outcome, coulomb::Found};
 use base::{number::short, tolerance};
 use check::question::QuestionKind;
 use check::{
-    proof::{
-        certificate::Certificate,
-        result::ResultFile,
-    },
+    proof::{certificate::Certificate, result::ResultFile},
     verdict::{
         Forces, Verdict,
         evidence::{ContactForces, read_forces},

@@ -32,14 +32,14 @@ fn arch(thickness: f64, size: f64, more: serde_json::Value) -> Scene {
 
 fn assessed(scene: &Scene) -> (Model, View) {
     let m = model(scene);
-    let file = saved::assessment(scene, &m, &assess(&m, &control()));
+    let file = saved::assessment(scene, &m, &assess(&m, &control())).unwrap();
     let view = View::new(&m, &file, Vec::new()).unwrap();
     (m, view)
 }
 
 fn limited(scene: &Scene) -> (Model, View) {
     let m = model(scene);
-    let file = saved::load_factor(scene, &m, &limit(&m, &control()).into());
+    let file = saved::load_factor(scene, &m, &limit(&m, &control()).into()).unwrap();
     let view = View::new(&m, &file, Vec::new()).unwrap();
     (m, view)
 }

@@ -94,7 +94,7 @@ fn text_and_table_agree_on_where_a_crushing_hinge_is() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/structures/pier-that-crushes.json");
     let (scene, _) = voussoir::scene::read_file(path.as_ref()).unwrap();
     let m = voussoir::interface::prepare(&scene).unwrap();
-    let result = saved::load_factor(&scene, &m, &limit(&m, &super::control()).into());
+    let result = saved::load_factor(&scene, &m, &limit(&m, &super::control()).into()).unwrap();
     let view = voussoir::report::view::View::new(&m, &result, Vec::new()).unwrap();
     let row = rows(&table::joints(&view).unwrap()).remove(0);
     assert_eq!(row["motion"], "crush");

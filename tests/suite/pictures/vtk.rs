@@ -201,8 +201,12 @@ fn falling() -> (Model, View) {
         p.moment.iter().for_each(|m| film.see(m));
         ControlFlow::Continue(())
     });
-    let view = View::new(&m, &saved::simulated(&scene, &m, None, &outcome.unwrap()), film.frames())
-        .unwrap();
+    let view = View::new(
+        &m,
+        &saved::simulated(&Default::default(), &scene, &m, None, &outcome.unwrap()).unwrap(),
+        film.frames(),
+    )
+    .unwrap();
     (m, view)
 }
 

@@ -3,9 +3,7 @@
 
 use super::{Derivation, computed};
 use crate::{
-    proof::{
-        answer::Answer, critical::CriticalResult, evidence::ClosedEvidence, told::Told,
-    },
+    proof::{answer::Answer, critical::CriticalResult, evidence::ClosedEvidence, told::Told},
     question::Question,
     terms::{Bound, Closed, ClosedAnswer, ClosedEnd, Difference, LeftOutContacts},
     verdict::{Verdict, claim::Findings},
@@ -30,9 +28,8 @@ impl Derivation<'_> {
         let closed = match e {
             None => None,
             Some(e) => {
-                let given = given(self.question, told, e).ok_or(
-                    "the question is not one that is asked again with contacts closed",
-                )?;
+                let given = given(self.question, told, e)
+                    .ok_or("the question is not one that is asked again with contacts closed")?;
                 f.computed = true;
                 if self.asks_again() {
                     let here = self.again.closed(self.question, e.law, self.scene, self.model);
@@ -43,7 +40,11 @@ impl Derivation<'_> {
                                     || answer.beside(&e.answer) == Difference::None)
                         })
                     });
-                    computed(&mut f, same, "the answer with contacts closed that were left out".into());
+                    computed(
+                        &mut f,
+                        same,
+                        "the answer with contacts closed that were left out".into(),
+                    );
                 }
                 let difference = e.answer.beside(&given);
                 Some(Closed { law: e.law, answer: e.answer.clone(), difference })

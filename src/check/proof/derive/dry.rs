@@ -43,9 +43,8 @@ impl Derivation<'_> {
             let zero = at(0.0).map_or(0.0, |model: Model| {
                 tolerance::LOAD_FACTOR_FLOOR * claim::natural_factor(&model.assembly)
             });
-            let near = |b: f64| {
-                e.value.is_some_and(|v| v >= (1.0 - tolerance::REST_WITHIN) * b - zero)
-            };
+            let near =
+                |b: f64| e.value.is_some_and(|v| v >= (1.0 - tolerance::REST_WITHIN) * b - zero);
             let above = e.moves_at.or(bound.value);
             require(
                 &mut f,
@@ -71,8 +70,7 @@ impl Derivation<'_> {
         // What the evidence for the bound, or that of the dead load beside it, says of the dead load
         // is not to be computed again.
         let is_negative = bound.upper.is_some_and(|u| u < 0.0);
-        let falls =
-            e.found == Found::NotAtRest && (is_negative || dead == Some(Verdict::Unstable));
+        let falls = e.found == Found::NotAtRest && (is_negative || dead == Some(Verdict::Unstable));
         if falls && is_negative {
             f.holds.push("the bound is below zero: the dead load alone is not held".into());
         } else if falls {
@@ -81,7 +79,11 @@ impl Derivation<'_> {
         if f.fails.is_empty() && !falls {
             let order = [e.rests_at, e.value, e.moves_at].into_iter().flatten();
             let rising = order.collect::<Vec<f64>>().windows(2).all(|w| w[0] <= w[1]);
-            require(&mut f, rising, "it rests up to no more than the value, and moves from no less on");
+            require(
+                &mut f,
+                rising,
+                "it rests up to no more than the value, and moves from no less on",
+            );
             if rising
                 && self.asks_again()
                 && let Err(e) = self.spoken_of(&mut f, at, e)
@@ -124,13 +126,18 @@ impl Derivation<'_> {
                 );
             }
             (Found::Rests, Some(value), moves_at) => {
-                let next = value + resolution(&at(value)?.assembly) * moves_at.unwrap_or(value).abs();
+                let next =
+                    value + resolution(&at(value)?.assembly) * moves_at.unwrap_or(value).abs();
                 let known = moves_at.is_some_and(|m| m > value);
                 let moves = match moves_at.is_none_or(|m| next < m) {
                     true => motion(next)?.map(|motion| motion != StateMotion::Rests),
                     false => Some(true),
                 };
-                computed(f, moves.map(|moves| known && moves), format!("at {next} it rests no longer"));
+                computed(
+                    f,
+                    moves.map(|moves| known && moves),
+                    format!("at {next} it rests no longer"),
+                );
             }
             _ => {}
         }

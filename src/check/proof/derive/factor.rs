@@ -74,9 +74,8 @@ impl Derivation<'_> {
             }
             None => {
                 f.holds.push("undecided: nothing is claimed".into());
-                let ends = proven.as_ref().map(|p| {
-                    claim::ends(model, &p.forces, &p.rates, e.between)
-                });
+                let ends =
+                    proven.as_ref().map(|p| claim::ends(model, &p.forces, &p.rates, e.between));
                 let [lower, upper] = ends.unwrap_or_default();
                 Bound { lower, upper, ..none(Outcome::Undecided) }
             }

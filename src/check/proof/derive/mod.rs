@@ -25,7 +25,12 @@ use crate::{
     proof::answer::{Answer, LimitAnswer, SimulationAnswer, TiltAnswer},
     question::{LimitOptions, Question, SimulateOptions, TiltOptions, directions},
     terms::{Fate, Found, Law},
-    verdict::{Verdict, claim::Findings, exact::Grade, tilted::{direction, tilted}},
+    verdict::{
+        Verdict,
+        claim::Findings,
+        exact::Grade,
+        tilted::{direction, tilted},
+    },
 };
 use base::error::Finding;
 use model::interface::Model;
@@ -157,8 +162,7 @@ impl Derivation<'_> {
         let verdict = answer.verdict;
         self.part("answer", f);
         self.check.claimed = verdict != Verdict::Undecided;
-        let mut told =
-            Told::new(self.model, Answer::Verdict(answer), &e.standing.certificate);
+        let mut told = Told::new(self.model, Answer::Verdict(answer), &e.standing.certificate);
         told.motion = e.standing.state;
         told.in_words(self.model, proven.as_ref());
         if let Some(seen) = &e.simulation {
@@ -179,8 +183,8 @@ impl Derivation<'_> {
             (answer, proven, standing)
         });
         let verdict = beside.as_ref().map(|b| b.0.clone());
-        self.check.claimed =
-            verdict.as_ref().is_some_and(|v| v.verdict != Verdict::Undecided) || e.seen.fate != Fate::Undecided;
+        self.check.claimed = verdict.as_ref().is_some_and(|v| v.verdict != Verdict::Undecided)
+            || e.seen.fate != Fate::Undecided;
         let simulation = e.seen.told(verdict.as_ref().map(|v| v.verdict));
         let answer = Answer::Simulation(SimulationAnswer { fate: e.seen.fate, verdict });
         let nothing = Default::default();
@@ -259,7 +263,11 @@ impl Derivation<'_> {
         let nothing = Default::default();
         let mut all = Vec::new();
         if list.len() > asked.len() {
-            let text = format!("there is evidence for {} directions, asked were {}", list.len(), asked.len());
+            let text = format!(
+                "there is evidence for {} directions, asked were {}",
+                list.len(),
+                asked.len()
+            );
             self.part("answer", failure(text));
         }
         for (k, &toward) in asked.iter().enumerate() {

@@ -1,13 +1,13 @@
 //! The part of a scene that an answer is about.
 
-use crate::{
-    terms::Deciding,
-    verdict::{Rate, mechanism},
-};
 use crate::proof::{
     certificate::Proven,
     member::lines,
     told::{MechanismWords, Told},
+};
+use crate::{
+    terms::Deciding,
+    verdict::{Rate, mechanism},
 };
 use model::interface::{Model, parts};
 

@@ -38,10 +38,9 @@ impl Derivation<'_> {
         let answer = VerdictAnswer {
             verdict,
             law,
-            unbalance: proven.as_ref().map_or(
-                Bracket { lower: 0.0, upper: f64::INFINITY },
-                |p| unbalance(model, p, verdict),
-            ),
+            unbalance: proven.as_ref().map_or(Bracket { lower: 0.0, upper: f64::INFINITY }, |p| {
+                unbalance(model, p, verdict)
+            }),
             part: part.and_then(|p| deciding(model, &p.rates)),
             proof: claim.and(e.certificate.grade()),
         };

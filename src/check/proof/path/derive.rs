@@ -1,8 +1,8 @@
 //! Paths: every point from its poses alone, and the answer from the points.
 
 use super::{
-    Bracketed, DrivenBy, MovingSupport, PathAnswer, PathEventKind, PathPoint,
-    PathResult, PathStatus, Reaction, hinges, slips,
+    Bracketed, DrivenBy, MovingSupport, PathAnswer, PathEventKind, PathPoint, PathResult,
+    PathStatus, Reaction, hinges, slips,
 };
 use crate::{
     path::{Carried, Drive, Moves, reaction, saved::read_poses},
@@ -136,9 +136,7 @@ fn status(
         {
             (PathStatus::Falls, Some(stands.value), Some(falls.value))
         }
-        (EndEvidence::Reached, _)
-            if whole && (drive.is_push() || last == Some(1.0)) =>
-        {
+        (EndEvidence::Reached, _) if whole && (drive.is_push() || last == Some(1.0)) => {
             (PathStatus::Reached, last, None)
         }
         (EndEvidence::Vanishes, _) if whole && drive.is_push() => {
@@ -273,7 +271,8 @@ fn events_hold(
         }
         let Some(said) = event.jump else { continue };
         let at = (1..poses.len()).find(|&k| {
-            e.points[k].value == e.points[k - 1].value && (e.points[k].value - event.value).abs() <= small
+            e.points[k].value == e.points[k - 1].value
+                && (e.points[k].value - event.value).abs() <= small
         });
         let Some(k) = at else { continue };
         let ways = poses[k].iter().zip(&poses[k - 1]).map(|(a, b)| (a.shift - b.shift).norm());

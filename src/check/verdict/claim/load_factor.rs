@@ -207,7 +207,8 @@ pub fn ends(
     let natural = natural_factor(&model.assembly);
     let lower = lower.filter(|lower| {
         let mut f = Findings::default();
-        let width = tolerance::LOAD_FACTOR_WIDTH * lower.abs() + tolerance::LOAD_FACTOR_FLOOR * natural;
+        let width =
+            tolerance::LOAD_FACTOR_WIDTH * lower.abs() + tolerance::LOAD_FACTOR_FLOOR * natural;
         supported(&mut f, model, (forces, rates), *lower, width);
         f.fails.is_empty()
     });

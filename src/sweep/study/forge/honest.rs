@@ -49,21 +49,18 @@ pub(super) fn asked(question: &Question, scene: &Scene, model: &Model) -> Option
 /// Questions of every kind; the dear ones by turns.
 fn questions(model: &Model, turn: usize) -> Vec<Question> {
     let blocks = &model.assembly.blocks;
-    let mut list = vec![
-        Question::Assess(AssessOptions::default()),
-        Question::Limit(LimitOptions::default()),
-    ];
+    let mut list =
+        vec![Question::Assess(AssessOptions::default()), Question::Limit(LimitOptions::default())];
     let toward = vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-    let free = model.assembly.free().max_by(|&i, &j| {
-        blocks[i].centroid.z.total_cmp(&blocks[j].centroid.z)
-    });
-    let control =
-        free.map(|i| ControlPoint { block: blocks[i].id.clone(), point: blocks[i].centroid.into() });
+    let free = model
+        .assembly
+        .free()
+        .max_by(|&i, &j| blocks[i].centroid.z.total_cmp(&blocks[j].centroid.z));
+    let control = free
+        .map(|i| ControlPoint { block: blocks[i].id.clone(), point: blocks[i].centroid.into() });
     match turn % 9 {
         0 => list.push(Question::Tilt(TiltOptions { toward, ..TiltOptions::default() })),
-        1 => {
-            list.push(Question::Thrust(ThrustOptions { range: true, ..ThrustOptions::default() }))
-        }
+        1 => list.push(Question::Thrust(ThrustOptions { range: true, ..ThrustOptions::default() })),
         2 => list.push(Question::Critical(CriticalOptions {
             law: Law::Associative,
             vary: "/joints/default/friction".into(),
@@ -79,15 +76,14 @@ fn questions(model: &Model, turn: usize) -> Vec<Question> {
             seconds: Some(0.5),
             ..SimulateOptions::default()
         })),
-        5 => list.push(Question::Kinematic(KinematicOptions {
-            toward,
-            ..KinematicOptions::default()
-        })),
+        5 => list
+            .push(Question::Kinematic(KinematicOptions { toward, ..KinematicOptions::default() })),
         6 => list.push(Question::State(StateOptions::default())),
         7 => {
-            let own = blocks.iter().filter(|b| b.support).map(|b| {
-                SupportMove::along(b.id.clone(), [0.05 * b.size, 0.0, 0.0])
-            });
+            let own = blocks
+                .iter()
+                .filter(|b| b.support)
+                .map(|b| SupportMove::along(b.id.clone(), [0.05 * b.size, 0.0, 0.0]));
             list.push(Question::Settle(SettleOptions {
                 moves: own.take(1).collect(),
                 ..SettleOptions::default()

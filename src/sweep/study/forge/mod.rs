@@ -249,7 +249,11 @@ mod tests {
         for index in 0..10 {
             for honest in honest(2, index).unwrap() {
                 let text = honest.file.to_string();
-                assert!(is_proved(&serde_json::from_str(&text).unwrap()), "{index}: {}", honest.name);
+                assert!(
+                    is_proved(&serde_json::from_str(&text).unwrap()),
+                    "{index}: {}",
+                    honest.name
+                );
             }
         }
     }

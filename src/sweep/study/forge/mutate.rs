@@ -35,8 +35,9 @@ const MATERIAL: f64 = 1e-5;
 /// A forgery of a file, with what was changed; nothing where nothing was. Where question, evidence or
 /// scene are others, the answer is the one that follows from them.
 pub(super) fn mutate(honest: &Value, random: &mut Random) -> Option<(Part, String, Value)> {
-    let part = [Part::Answer, Part::Answer, Part::Evidence, Part::Evidence, Part::Scene, Part::Question]
-        [random.count(0, 5)];
+    let part =
+        [Part::Answer, Part::Answer, Part::Evidence, Part::Evidence, Part::Scene, Part::Question]
+            [random.count(0, 5)];
     let mut file = honest.clone();
     let mut all = Vec::new();
     leaves(&file[part.word()], format!("/{}", part.word()), &mut all);
@@ -78,16 +79,8 @@ fn change(file: &mut Value, pointer: &str, random: &mut Random) -> Option<String
         Value::Number(n) => {
             let v = n.as_f64()?;
             let whole = n.is_u64() || n.is_i64();
-            let choices = [
-                0.0,
-                -v,
-                2.0 * v,
-                v * (1.0 + 3e-3),
-                v + 1.0,
-                v * (1.0 - 1e-4),
-                1e300,
-                5e-324,
-            ];
+            let choices =
+                [0.0, -v, 2.0 * v, v * (1.0 + 3e-3), v + 1.0, v * (1.0 - 1e-4), 1e300, 5e-324];
             let other = choices[random.count(0, choices.len() - 1)];
             if (other - v).abs() <= MATERIAL * v.abs().max(1e-3) {
                 return None;
