@@ -9,7 +9,7 @@ use voussoir::{
     dynamics::Frame,
     interface::{Model, prepare},
     proof::{
-        PackingFile, ResultFile, VerificationFile, certificate::Certificate, read,
+        PackingFile, ResultFile, Saved, VerificationFile, certificate::Certificate, read,
         recompute::JustComputed, verify, verify::verify_model,
     },
     report::{
@@ -156,6 +156,7 @@ impl Answer {
             "left_out_contacts" => pythonize(py, &f.left_out_contacts)?,
             "left_out" => pythonize(py, &f.run.left_out)?,
             "simulation" => pythonize(py, &f.simulation)?,
+            "frames" => pythonize(py, &f.run.frames)?,
             "path" => pythonize(py, &f.path)?,
             "thrust" => pythonize(py, &f.thrust)?,
             "critical" => pythonize(py, &f.critical)?,
@@ -365,23 +366,40 @@ impl Answer {
         py: Python<'py>,
         scene: Option<&crate::scene::Scene>,
     ) -> PyResult<(Bound<'py, PyAny>, String)> {
-        let other = scene.map(|s| s.ready());
-        let kept = self.kept.clone();
-        let verification = crate::wait::run(py, None, move |_| {
-            let scene = other.as_ref().map_or(&kept.file.scene.input, |r| &*r.scene);
-            let saved = kept.file.saved().map_err(Trouble::other)?;
-            verify(&saved, scene).map_err(|e| match &other {
-                Some(ready) => ready.located(e),
-                None => e.into(),
-            })
-        })?;
-        let file = &self.kept.file;
-        let found = verification.file.as_ref();
-        let words = text::verification(&file.scene.name, found, &verification, Layout::default());
-        let words = words.to_string();
-        let plain = pythonize(py, &VerificationFile::new(&file.scene.name, &verification))?;
-        Ok((plain, words))
+        let saved = self.kept.file.saved().map_err(|e| Trouble::other(e).raise(py))?;
+        verified(py, saved, scene)
     }
+}
+
+/// Verifies a saved result, from its scene or from another: the verification as plain values.
+#[pyfunction]
+#[pyo3(signature = (name, text, scene=None))]
+pub fn check_saved<'py>(
+    py: Python<'py>,
+    name: String,
+    text: String,
+    scene: Option<&crate::scene::Scene>,
+) -> PyResult<(Bound<'py, PyAny>, String)> {
+    let saved = read::read_str(name, text).map_err(|e| Trouble::from(e).raise(py))?;
+    verified(py, saved, scene)
+}
+
+fn verified<'py>(
+    py: Python<'py>,
+    saved: Saved,
+    scene: Option<&crate::scene::Scene>,
+) -> PyResult<(Bound<'py, PyAny>, String)> {
+    let other = scene.map(|s| s.ready());
+    let name = saved.scene.name.clone();
+    let found = crate::wait::run(py, None, move |_| {
+        let scene = other.as_ref().map_or(&saved.scene, |r| &*r.scene);
+        verify(&saved, scene).map_err(|e| match &other {
+            Some(ready) => ready.located(e),
+            None => e.into(),
+        })
+    })?;
+    let words = text::verification(&name, found.file.as_ref(), &found, Layout::default());
+    Ok((pythonize(py, &VerificationFile::new(&name, &found))?, words.to_string()))
 }
 
 fn flat<'py>(py: Python<'py>, forces: &[ContactForces]) -> Flat<'py> {

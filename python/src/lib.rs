@@ -33,6 +33,7 @@ fn _core(module: &Bound<PyModule>) -> PyResult<()> {
     module.add_class::<piles::Piles>()?;
     module.add_function(wrap_pyfunction!(ask::ask, module)?)?;
     module.add_function(wrap_pyfunction!(ask::is_result, module)?)?;
+    module.add_function(wrap_pyfunction!(answer::check_saved, module)?)?;
     module.add_function(wrap_pyfunction!(batch::ask_many, module)?)?;
     module.add_function(wrap_pyfunction!(sweep::sweep_file, module)?)?;
     module.add_function(wrap_pyfunction!(sweep::sweep_scene, module)?)?;

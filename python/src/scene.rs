@@ -68,7 +68,7 @@ impl Ready {
                 true => Trouble::TimeIsUp(e.to_string()),
                 false => self.located(e),
             })?;
-        model.assembly.findings.splice(0..0, self.said.iter().cloned());
+        model.assembly.said = self.said.to_vec();
         let points = model.contact_points() as u64;
         limits::afford(
             &format!("solving for {points} contact points"),

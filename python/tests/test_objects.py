@@ -107,7 +107,8 @@ def test_saved_answers_are_proved_and_forged_ones_refused(tmp_path: Path) -> Non
     assert isinstance(again, voussoir.Assessment) and again.verdict is answer.verdict
     assert np.array_equal(again.forces, answer.forces)
     data = json.loads(file.read_text())
-    data["certificate"]["forces"][0]["forces"][0][2] *= 1.5
+    certificate = data["evidence"]["assess"]["standing"]["certificate"]
+    certificate["forces"][0]["forces"][0][2] *= 1.5
     file.write_text(json.dumps(data))
     refused = voussoir.check(file)
     assert isinstance(refused, voussoir.Verification) and refused.refuted and not refused

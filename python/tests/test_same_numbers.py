@@ -51,7 +51,7 @@ def test_assess(path: Path) -> None:
     assert without_time(answer.to_dict()) == without_time(expected)
     assert answer.verdict == expected["answer"]["verdict"]
     assert answer.unbalance.upper == expected["answer"]["unbalance"]["upper"]
-    listed = [f for c in expected["certificate"]["forces"] for f in c["forces"]]
+    listed = [f for c in expected["evidence"]["assess"]["standing"]["certificate"]["forces"] for f in c["forces"]]
     assert answer.forces.tolist() == listed
 
 

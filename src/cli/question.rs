@@ -109,7 +109,7 @@ impl<'a> Session<'a> {
             }
         })?;
         model.timings.read = read;
-        model.assembly.findings.splice(0..0, said.iter().cloned());
+        model.assembly.said.clone_from(&said);
         terminal::warnings(model.findings());
         let points = model.contact_points() as u64;
         limits::afford(
@@ -182,7 +182,7 @@ impl<'a> Session<'a> {
             .argument
             .into_iter()
             .map(|text| Finding::new(FindingCode::WorstCase, format!("worst case: {text}")));
-        model.assembly.findings.splice(0..0, notes.chain(self.said.iter().cloned()));
+        model.assembly.said = notes.chain(self.said.iter().cloned()).collect();
         (self.scene, self.model) = (worst.scene, model);
         Ok(())
     }

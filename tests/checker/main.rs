@@ -64,16 +64,18 @@ fn what_only_a_solver_can_compute_is_said_to_be_unchecked() {
 fn forged_results_are_refused() {
     let forged = [
         edited(FALLS, "/answer/verdict", |_| json!("stable")),
-        edited(FALLS, "/certificate/rates", |_| json!([])),
-        edited(FALLS, "/certificate/rates/0/velocity", |v| {
+        edited(FALLS, "/evidence/assess/standing/certificate/rates", |_| json!([])),
+        edited(FALLS, "/evidence/assess/standing/certificate/rates/0/velocity", |v| {
             json!([v[2].as_f64(), v[0].as_f64(), v[1].as_f64()])
         }),
-        edited(STANDS, "/certificate/forces/0/forces/0/2", |v| scaled(v, 1.001)),
-        edited(STANDS, "/scene/input/templates/0/arch/thickness", |_| json!(0.1)),
+        edited(STANDS, "/evidence/assess/standing/certificate/forces/0/forces/0/2", |v| {
+            scaled(v, 1.001)
+        }),
+        edited(STANDS, "/scene/templates/0/arch/thickness", |_| json!(0.1)),
         edited(COLUMN, "/answer/unbalance/upper", |_| json!(-1.0)),
         edited(PRESTRESS, "/answer/verdict", |_| json!("stable")),
         edited(LIMIT, "/answer/load_factor/value", |v| scaled(v, 1.001)),
-        edited(LIMIT, "/certificate/claim/load_factor/upper", |v| scaled(v, 0.9)),
+        edited(LIMIT, "/evidence/limit/factor/bound/claim/load_factor/upper", |v| scaled(v, 0.9)),
         edited(TILT, "/answer/tilt_deg/value", |v| scaled(v, 1.1)),
         edited(THRUST, "/answer/thrust/least/value", |v| scaled(v, 0.9)),
         edited(CRITICAL, "/answer/critical/0/value", |v| scaled(v, 1.1)),

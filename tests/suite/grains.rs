@@ -38,8 +38,9 @@ fn falls_at(scene: &Scene, toward: [f64; 3]) -> (f64, usize) {
     let round = answer.rounds.into_iter().next_back().expect("a round");
     let angle = round.tilt.angle_deg().expect("an angle");
     let rest = without(scene, &round.gone).expect("a scene");
+    let own = round.tilt.model.clone();
     let tilted = Tilted { directions: vec![round.tilt], level: None };
-    prove(&rest, &saved::tilt(&rest, &model, &tilted).expect("a direction"));
+    prove(&rest, &saved::tilt(&rest, &own, &tilted).expect("a direction"));
     (angle, model.assembly.free().count())
 }
 

@@ -348,10 +348,10 @@ mod command {
         );
         let text = std::fs::read_to_string(&saved).expect("a result");
         let file: Value = serde_json::from_str(&text).expect("JSON");
-        assert_eq!(file["question"], "shake");
-        assert_eq!(file["shaken"]["frames"].as_array().map(Vec::len), Some(10));
+        assert!(file["question"].get("shake").is_some());
+        assert_eq!(file["run"]["frames"].as_array().map(Vec::len), Some(10));
         let (code, out, error) = voussoir(&format!("check {saved}"));
-        assert_eq!(code, 3, "{error}");
+        assert_eq!(code, 0, "{error}");
         assert!(out.contains("confirmed, not proved"), "{out}");
         let page = std::fs::read_to_string(&page).expect("a page");
         for words in ["How far blocks moved", "Ways of the blocks that went farthest", "× 1.1"] {

@@ -247,8 +247,8 @@ fn leads_to(
 const CIRCLES: &[(&str, usize)] = &[
     ("scene", 4),
     ("model", 5),
-    ("check", 30),
-    ("analysis", 19),
+    ("check", 26),
+    ("analysis", 16),
     ("sweep", 4),
     ("report", 4),
     ("cli", 4),

@@ -62,6 +62,7 @@ mod piles;
 mod published;
 mod readme;
 mod real;
+mod recheck;
 mod record;
 mod reference;
 mod rocking;

@@ -150,7 +150,7 @@ fn a_result_with_a_mesh_needs_no_file() {
     // The scene inside it is a scene, file or no file.
     let result: Value =
         serde_json::from_str(&fs::read_to_string(at.join("result.json")).unwrap()).unwrap();
-    let inside = &result["scene"]["input"];
+    let inside = &result["scene"];
     assert_eq!(inside["blocks"][1]["shape"]["mesh"]["path"], "stones/frustum.obj");
     desk.put("inside.json", inside);
     let (code, out, _) = run(&at, &["limit", "inside.json", "--json"]);
@@ -160,7 +160,7 @@ fn a_result_with_a_mesh_needs_no_file() {
     );
     // And a stone that was made larger by hand refutes the proof.
     let mut forged = result.clone();
-    forged["scene"]["input"]["blocks"][1]["shape"]["mesh"]["scale"] = json!(0.002);
+    forged["scene"]["blocks"][1]["shape"]["mesh"]["scale"] = json!(0.002);
     desk.put("forged.json", &forged);
     assert_eq!(run(&at, &["check", "forged.json"]).0, Some(1));
 }

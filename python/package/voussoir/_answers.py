@@ -992,7 +992,7 @@ class Simulation(Answer):
     @cached_property
     def frames(self) -> tuple[Array, Array]:
         """The same at the times of ``frames=``."""
-        seen = self.simulation.get("frames", [])
+        seen = self._core.part("frames")
         times = np.array([f["time"] for f in seen], dtype=np.float64)
         poses = np.array([f["blocks"] for f in seen], dtype=np.float64)
         return times, poses.reshape(len(times), -1, 7)

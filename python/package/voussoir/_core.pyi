@@ -18,6 +18,7 @@ __all__ = [
     "Heaps",
     "Piles",
     "ask",
+    "check_saved",
     "is_result",
     "ask_many",
     "sweep_file",
@@ -140,6 +141,9 @@ class Piles:
     ]: ...
 
 def is_result(text: str) -> bool: ...
+def check_saved(
+    name: str, text: str, scene: Scene | None = None
+) -> tuple[dict[str, Any], str]: ...
 def ask_many(
     scenes: Sequence[Scene],
     questions: Sequence[Any],

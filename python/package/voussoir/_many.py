@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._answers import Array, Finding, Verification, _verification, _write
-from ._ask import Law, Progress, load_answer
+from ._ask import Law, Progress
 from ._answers import Answer
 from ._progress import shown
 from ._scene import Scene, SceneLike, core, load
@@ -402,9 +402,10 @@ def check(
         return _verification(what._core.verify(other))
     if isinstance(what, (str, os.PathLike)):
         with open(what, encoding="utf-8", errors="replace") as file:
-            is_result = _core.is_result(file.read())
-        if is_result:
-            return check(load_answer(what), scene)
+            text = file.read()
+        if _core.is_result(text):
+            other = None if scene is None else core(scene)
+            return _verification(_core.check_saved(os.fspath(what), text, other))
     if scene is not None:
         raise ValueError("only answers are proved from a scene")
     return Inspection([Finding(*each) for each in load(what)._core.findings()])

@@ -1,9 +1,13 @@
 //! What was found, as evidence: names instead of indices.
 
+use super::proof::{certificate, factor, standing};
+use super::{
+    in_time::{rocking_answer, seen, shaken_answer},
+    path::path_evidence,
+};
 use crate::{
-    Answer as Answered, Assessment, Claims, ControlPoint, Critical, Kinematic, LoadFactor, Moving,
-    Outcome, Proved, Question, Tilt, Tilted,
-    coulomb::DryLoadFactor,
+    Answer as Answered, Assessment, ControlPoint, Critical, Kinematic, Moving, Proved, Question,
+    Tilt, Tilted,
     critical::Change,
     critical_value::Probe,
     geometric::Geometric,
@@ -14,12 +18,11 @@ use crate::{
 use base::error::{InputError, JsonPath};
 use check::{
     proof::{
-        certificate::Certificate,
         evidence::{
-            AssessEvidence, CriticalEvidence, DryEvidence, Evidence, FactorEvidence, FlipEvidence,
-            HeldEvidence, KinematicEvidence, LimitEvidence, MovingEvidence, PositionEvidence,
-            RockEvidence, ScanPoint, SideEvidence, StageEvidence, StagesEvidence, Standing,
-            StateEvidence, StepEvidence, ThrustEvidence, TiltEvidence,
+            AssessEvidence, CriticalEvidence, Evidence, FactorEvidence, FlipEvidence, HeldEvidence,
+            KinematicEvidence, LimitEvidence, MovingEvidence, PositionEvidence, RockEvidence,
+            ScanPoint, SideEvidence, StageEvidence, StagesEvidence, StateEvidence, StepEvidence,
+            ThrustEvidence, TiltEvidence,
         },
         kinematic::Control,
         state::displacements,
@@ -29,7 +32,6 @@ use check::{
 };
 use model::interface::Model;
 use nalgebra::Vector3;
-use std::sync::Arc;
 
 /// The evidence for an answer, and the question with what was not said written out.
 pub(super) fn of(
@@ -65,12 +67,8 @@ pub(super) fn of(
             }
             Evidence::Thrust(thrust(model, t))
         }
-        (Question::Settle(_), Answered::Path(p)) => {
-            Evidence::Settle(super::path::path_evidence(model, p))
-        }
-        (Question::Push(_), Answered::Path(p)) => {
-            Evidence::Push(super::path::path_evidence(model, p))
-        }
+        (Question::Settle(_), Answered::Path(p)) => Evidence::Settle(path_evidence(model, p)),
+        (Question::Push(_), Answered::Path(p)) => Evidence::Push(path_evidence(model, p)),
         (Question::Kinematic(o), Answered::Kinematic(k)) => {
             // Worst first, as they are told.
             o.toward = k.directions.iter().map(|d| d.quake.toward.into()).collect();
@@ -100,16 +98,15 @@ pub(super) fn of(
             Evidence::Rock(RockEvidence {
                 towards: certificate(under, towards),
                 against: certificate(other, against),
-                history: Box::new(super::rocking_answer(model, r)),
+                history: Box::new(rocking_answer(model, r)),
             })
         }
         (Question::Simulate(o), Answered::Simulate(outcome)) => {
-            let seen = super::seen(model, o, None, outcome);
-            let seen = Box::new(seen);
+            let seen = Box::new(seen(model, o, None, outcome));
             Evidence::Simulate(check::proof::evidence::SimulateEvidence { seen, standing: None })
         }
         (Question::Shake(_), Answered::Shake(s)) => {
-            Evidence::Shake(Box::new(super::shaken_answer(model, s)))
+            Evidence::Shake(Box::new(shaken_answer(model, s)))
         }
         (Question::Repose(_), _) => {
             return Err(InputError::at(JsonPath::root(), "a packing has a file of its own"));
@@ -124,34 +121,6 @@ fn said(toward: &[[f64; 3]], all: &mut Option<u16>) {
     if toward.is_empty() && all.is_none() {
         *all = Some(DIRECTIONS);
     }
-}
-
-/// Packs a proof.
-fn certificate<T: Claims>(model: &Model, proved: &Proved<T>) -> Arc<Certificate> {
-    Certificate::new(model, proved.claim(), proved.evidence(), proved.findings())
-}
-
-pub(super) fn standing(model: &Model, a: &Proved<Assessment>) -> Standing {
-    let state = a.state.as_ref().map(|s| s.motion);
-    Standing { certificate: certificate(model, a), state }
-}
-
-fn factor(
-    model: &Model,
-    l: &Proved<LoadFactor>,
-    dry: Option<(&Model, &Proved<DryLoadFactor>)>,
-) -> FactorEvidence {
-    let finite = |v: f64| v.is_finite().then_some(v);
-    let open = l.outcome == Outcome::Undecided;
-    let between = if open { [l.bracket.lower, l.bracket.upper].map(finite) } else { [None; 2] };
-    let dry = dry.map(|(model, d)| DryEvidence {
-        found: d.found,
-        value: d.value,
-        rests_at: d.rests_at,
-        moves_at: d.moves_at,
-        certificate: certificate(model, d),
-    });
-    FactorEvidence { bound: certificate(model, l), between, dry }
 }
 
 fn tilted(t: &Tilt) -> FactorEvidence {
@@ -229,8 +198,8 @@ fn kinematic(model: &Model, k: &Kinematic) -> KinematicEvidence {
         directions: k.directions.iter().map(direction).collect(),
         dead: k.dead.as_ref().map(|a| standing(model, a)),
         control,
-        curve: k.curve.as_ref().map(|c| super::path::path_evidence(&k.curve_model, c)),
-        curve_with_members: tied.map(|t| super::path::path_evidence(under, t)),
+        curve: k.curve.as_ref().map(|c| path_evidence(&k.curve_model, c)),
+        curve_with_members: tied.map(|t| path_evidence(under, t)),
     }
 }
 

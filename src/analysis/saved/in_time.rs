@@ -1,15 +1,11 @@
 //! What happened in time: names instead of indices.
 
-use super::{evidence::standing, made, run};
 use crate::{
-    Assessment, Proved, Question, Rocking, ShakenScene, SimulateOptions, agreement,
+    Assessment, Proved, Rocking, ShakenScene, SimulateOptions, agreement,
     follow::machine::Exactness,
 };
-use base::error::InputError;
 use check::{
     proof::{
-        Evidence, ResultFile,
-        evidence::{ClosedEvidence, SimulateEvidence},
         rocking::{
             RockingAnswer, RockingFate, RockingFlip, RockingImpact, RockingPlace, RockingSense,
         },
@@ -21,60 +17,9 @@ use check::{
 };
 use dynamics::{Frame, Pose, ShakenFate, SimulationOutcome};
 use model::interface::Model;
-use scene::Scene;
 
 /// So many blocks of the first motion are kept, the ones that moved farthest first.
 const MOVED: usize = 1000;
-
-/// The result of `simulate`, beside the verdict where there is one.
-///
-/// # Errors
-/// As [`made`].
-pub fn simulated(
-    options: &SimulateOptions,
-    scene: &Scene,
-    model: &Model,
-    a: Option<&Proved<Assessment>>,
-    outcome: &SimulationOutcome,
-) -> Result<ResultFile, InputError> {
-    let mut run = match a {
-        Some(a) => run::of(scene, model, &crate::Answer::Assess(a.clone())),
-        None => check::proof::Run::new(model.timings),
-    };
-    add(&mut run, outcome);
-    let evidence = SimulateEvidence {
-        seen: Box::new(seen(model, options, a, outcome)),
-        standing: a.map(|a| standing(model, a)),
-    };
-    let question = Question::Simulate(options.clone());
-    made(question, scene, model, (Evidence::Simulate(evidence), None), run)
-}
-
-/// Adds what happened in time to a result of `assess`.
-///
-/// # Errors
-/// As [`made`].
-pub fn with_simulation(
-    file: &ResultFile,
-    options: &SimulateOptions,
-    model: &Model,
-    a: &Proved<Assessment>,
-    outcome: &SimulationOutcome,
-) -> Result<ResultFile, InputError> {
-    let mut run = file.run.clone();
-    add(&mut run, outcome);
-    let mut evidence = file.evidence().clone();
-    if let Evidence::Assess(e) = &mut evidence {
-        e.simulation = Some(Box::new(seen(model, options, Some(a), outcome)));
-    }
-    let closed: Option<ClosedEvidence> = file.closed().cloned();
-    made(file.question.clone(), &file.scene.input, model, (evidence, closed), run)
-}
-
-fn add(run: &mut check::proof::Run, outcome: &SimulationOutcome) {
-    run.warnings.extend(outcome.findings.iter().cloned());
-    run.frames = outcome.frames.iter().map(|f| frame(f, &outcome.runs)).collect();
-}
 
 /// What was seen, beside a verdict where there is one.
 pub fn seen(

@@ -1,14 +1,17 @@
 //! Answers that were found and proved, as the files that are saved of them: the evidence is written
 //! down here, and what is told of it is derived ([`check::proof::derive`]), as it is by who checks.
 
+mod derived;
 mod evidence;
 mod in_time;
 mod packing;
 mod path;
+mod proof;
 mod run;
 
+pub use derived::{made, simulated, with_simulation};
 pub use evidence::flip;
-pub use in_time::{rocking_answer, seen, shaken_answer, simulated, with_simulation};
+pub use in_time::{rocking_answer, seen, shaken_answer};
 pub use packing::packing;
 pub use path::path_evidence;
 
@@ -17,15 +20,15 @@ use crate::{
     LimitOptions, Limited, Proved, Question, ThrustOptions, TiltOptions, Tilted, doubt, left_out,
     thrust::Thrust,
 };
-use base::error::{Finding, FindingCode, InputError, JsonPath};
+use base::error::{InputError, JsonPath};
 use check::{
     proof::{
-        Derived, Evidence, ResultFile, Run, derive,
+        Evidence, ResultFile,
         evidence::{ClosedEvidence, PathEvidence},
-        recompute::JustComputed,
     },
     terms::Law,
 };
+use derived::REFUSED;
 use model::interface::Model;
 use scene::Scene;
 
@@ -94,31 +97,6 @@ pub fn of_path(
         .hint("begin another file")),
         None => Ok(file),
     }
-}
-
-/// How warnings begin that are about a result's own check.
-const REFUSED: &str = "refused by its own check: ";
-
-/// The result that follows from evidence that was found and checked this moment. What it rests on
-/// and does not hold is a warning.
-///
-/// # Errors
-/// The evidence is none for the question.
-pub fn made(
-    question: Question,
-    scene: &Scene,
-    model: &Model,
-    evidence: (Evidence, Option<ClosedEvidence>),
-    run: Run,
-) -> Result<ResultFile, InputError> {
-    let refuse = |text: String| InputError::at(JsonPath::root(), text);
-    let derived = derive(question, scene, model, evidence, run, &JustComputed);
-    let Derived { mut file, check } = derived.map_err(refuse)?;
-    let fails = check.parts.into_iter().flat_map(|(title, f)| {
-        f.fails.into_iter().map(move |text| format!("{REFUSED}{title}: {text}"))
-    });
-    file.run.warnings.extend(fails.map(|text| Finding::new(FindingCode::Numerics, text)));
-    Ok(file)
 }
 
 /// The result of `assess`.

@@ -52,7 +52,7 @@ pub fn packing(
             Vec::new()
         };
         let one = Tilted { directions: vec![round.tilt.clone()], level: None };
-        let file = tilt(&without(scene, &round.gone)?, model, &one)?;
+        let file = tilt(&without(scene, &round.gone)?, &round.tilt.model, &one)?;
         let Some(&factor) = file.answer.bound() else { continue };
         let degrees = |v: f64| v.atan().to_degrees();
         let count = |kinds: &[JointMotion]| {

@@ -16,6 +16,7 @@ use scene::Scene;
 /// What came beside an answer.
 pub(super) fn of(scene: &Scene, model: &Model, answer: &Answered) -> Run {
     let mut run = Run::new(model.timings);
+    run.warnings.clone_from(&model.assembly.said);
     match answer {
         Answered::Assess(a) => assessed(&mut run, a),
         Answered::Limit(l) => {

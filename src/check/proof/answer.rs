@@ -66,15 +66,15 @@ pub struct VerdictAnswer {
     pub verdict: Verdict,
     /// It stands: for which law of sliding. With `associative` forces exist, and whether the loads
     /// produce them was not asked.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub law: Option<Law>,
     /// Bracket of the least unbalance, in multiples of gravity.
     pub unbalance: Bracket,
     /// The part of the scene that decides, where it has several.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub part: Option<Deciding>,
     /// How exactly it is proved; nothing where it is undecided.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub proof: Option<Grade>,
 }
 
@@ -84,13 +84,13 @@ pub struct LimitAnswer {
     /// The load factor.
     pub load_factor: LoadFactorAnswer,
     /// Whether it stands without its live load, where that was asked.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub verdict: Option<Verdict>,
     /// The part of the scene that decides the bound, where it has several.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub part: Option<Deciding>,
     /// How exactly the bound is proved; nothing where it is undecided.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub proof: Option<Grade>,
 }
 
@@ -104,13 +104,13 @@ pub struct TiltAnswer {
     /// The tilt in degrees.
     pub tilt_deg: LoadFactorAnswer,
     /// Whether it stands level, where that was asked.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub verdict: Option<Verdict>,
     /// The part of the scene that decides the bound, where it has several.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub part: Option<Deciding>,
     /// How exactly the bound is proved; nothing where it is undecided.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub proof: Option<Grade>,
 }
 
@@ -122,18 +122,18 @@ pub struct LoadFactorAnswer {
     /// The law of sliding that it holds for.
     pub law: Law,
     /// The value to use; absent where none was found.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<f64>,
     /// Lower end of its bracket. With dry friction that slides it is computed: up to there the
     /// state was seen at rest.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lower: Option<f64>,
     /// Upper end of its bracket. With dry friction that slides the least value at which the state
     /// was seen to move, or else the proved bound.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub upper: Option<f64>,
     /// How the value with dry friction was found, where that was asked.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub found: Option<Found>,
     /// The bound: joints that slide open as well.
     pub associative: Bound,

@@ -150,20 +150,20 @@ pub struct DryResult {
     /// How it was found.
     pub found: Found,
     /// The part of the scene that moves, where it has several.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub part: Option<Deciding>,
     /// The value, where found.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<f64>,
     /// The greatest load factor at which the state under dry friction was seen at rest, having
     /// rested from the dead load on. Computed, not proved.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rests_at: Option<f64>,
     /// The least load factor at which it was seen to move.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub moves_at: Option<f64>,
     /// How far forces and mechanism are from Coulomb's law.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub natural_map: Option<f64>,
     /// The evidence.
     #[serde(skip)]

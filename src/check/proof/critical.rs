@@ -47,7 +47,7 @@ pub struct CriticalResult {
     /// The flips, in the order of the scan.
     pub flips: Vec<FlipResult>,
     /// Without a flip: the verdicts at the ends of the range.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub ends: Vec<Side>,
 }
 

@@ -17,7 +17,7 @@ use crate::{
     path::Drive,
     question::{KinematicOptions, directions},
     terms::{Deciding, Found, Outcome},
-    verdict::{Rate, Verdict, evidence::read_rates, exact::Grade},
+    verdict::{Rate, Verdict, claim::Findings, evidence::read_rates, exact::Grade},
 };
 use model::interface::Model;
 use nalgebra::Vector3;
@@ -33,28 +33,28 @@ pub struct KinematicAnswer {
     /// α0: the share of all weights that, pushing that way, sets the scene moving.
     pub alpha0: LoadFactorAnswer,
     /// Whether it stands without an earthquake, where that was asked.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub verdict: Option<Verdict>,
     /// The part of the scene that decides the bound on α0, where it has several.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub part: Option<Deciding>,
     /// How exactly that bound is proved; absent where it is undecided.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub proof: Option<Grade>,
     /// Factor of confidence FC.
     pub fc: f64,
     /// The control point of the curve, and by what the equivalent displacement is measured.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub control: Option<Control>,
     /// How far the curve was followed.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub curve: Option<PathAnswer>,
     /// The curve is that of the scene without its members: what lasts once these yield.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub without_members: bool,
     /// How far the curve with members was followed, where the scene has any: they hold up to their
     /// strength, however far it has moved. Limit states are those of `curve`.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub curve_with_members: Option<PathAnswer>,
     /// Why there is no curve with members; it stands under `run`.
     #[serde(skip)]
@@ -80,25 +80,25 @@ pub struct Control {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct Numbers {
     /// a0 = α0 g / (e* FC), m/s²; absent where α0 was not found.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub a0: Option<f64>,
     /// The same with blocks that move as one counted as one, where that is less.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub a0_of_bodies: Option<f64>,
     /// What of the mass takes part: e*, M* and δ of every mass that moves.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub participation: Option<Participation>,
     /// Whether the joints that the mechanism keeps closed allow another one.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unique: Option<Unique>,
     /// δ of the control point, in the measure of the masses' δ.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub control_delta: Option<f64>,
     /// What the curve gives, where it vanishes.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub capacity: Option<Capacity>,
     /// What the site demands.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub demand: Option<Demand>,
 }
 
@@ -281,6 +281,9 @@ pub(super) fn derive(
         }
         .numbers();
     }
+    if let Answer::Kinematic(answer) = &worst.direction.answer {
+        d.part("numbers", told_numbers(&answer.numbers));
+    }
     let Direction { answer, certificate, dry } = worst.direction.clone();
     let mut told = Told::new(&worst.quake.model, answer, &certificate);
     told.dry = dry;
@@ -293,6 +296,22 @@ pub(super) fn derive(
     told.dead_load = dead;
     d.check.claimed = told.answer.proof().is_some();
     Ok(told)
+}
+
+/// The greatest of what follows by arithmetic, for who reads the check.
+fn told_numbers(n: &Numbers) -> Findings {
+    let mut f = Findings::default();
+    f.holds.push(match (&n.participation, n.a0) {
+        (Some(p), Some(a0)) => format!(
+            "recomputed from the mechanism: e* = {:.9}, M* = {:.6e} kg, a0 = {a0:.9} m/s²",
+            p.e_star, p.mass
+        ),
+        _ => "recomputed: there is no mechanism to count masses of".into(),
+    });
+    f.holds.extend(n.capacity.map(|c| format!("recomputed from the curve: d0 = {:.9} m", c.d0)));
+    let ratio = |d: &Demand| format!("recomputed from the site: {:.6} of what it demands", d.ratio);
+    f.holds.extend(n.demand.as_ref().map(ratio));
+    f
 }
 
 /// A direction with what its numbers are made of.

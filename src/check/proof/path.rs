@@ -20,15 +20,15 @@ pub struct PathAnswer {
     /// The last value of the parameter that is proved: it stands there, or has the load factor of
     /// the last point. Settle: a share of the movement; push: the way of the control point, m.
     /// Absent where nothing is proved.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<f64>,
     /// It falls: at this value it is proved to.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub falls_at: Option<f64>,
     /// Settle: the least power that the blocks' forces on the supports can have at the start as
     /// these begin to move, J per unit of the parameter. Where one support moves straight by 1 m it
     /// is its least reaction in that direction, N.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub least_reaction: Option<Bracketed>,
     /// Why it was not followed any further; it stands under `run`.
     #[serde(skip)]
@@ -73,7 +73,7 @@ pub struct PathResult {
     pub events: Vec<PathEvent>,
     /// It falls: the last pose that is proved to stand and the first that is proved to fall, of the
     /// same linkage.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub ends: Vec<PathPoint>,
     /// Settle: evidence for the least reaction at the start.
     #[serde(skip)]
@@ -114,15 +114,15 @@ pub struct PathPoint {
     /// The parameter.
     pub value: f64,
     /// The load factor, where there is a live load; that of the certificate.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub load_factor: Option<f64>,
     /// The blocks' forces on the supports that move.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub reactions: Vec<Reaction>,
     /// Joints that have opened and still touch.
     pub hinges: Vec<Hinge>,
     /// Joints that have slid and still touch.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub slips: Vec<Slip>,
     /// Where the blocks are. Computed, not proved: the proof is about the scene that they make.
     #[serde(skip)]
@@ -132,7 +132,7 @@ pub struct PathPoint {
     pub certificate: Arc<Certificate>,
     /// Of a load factor with dry friction: the load factor of joints that open as they slide, which
     /// no value passes.
-    #[serde(rename = "bound", skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "bound", default, skip_serializing_if = "Option::is_none")]
     pub most: Option<f64>,
 }
 

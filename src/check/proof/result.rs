@@ -65,42 +65,42 @@ pub struct Run {
     /// The program's version.
     pub voussoir: String,
     /// Why the answer is undecided, where it is.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub doubt: Option<Doubt>,
     /// Why something is not in the answer, by what is missing.
-    #[serde(skip_serializing_if = "Why::is_empty")]
+    #[serde(default, skip_serializing_if = "Why::is_empty")]
     pub why: Why,
     /// What the user should know of how it came about.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<Finding>,
     /// What the scene did not need.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub left_out: Vec<String>,
     /// Seconds per stage.
     pub timings: Timings,
     /// What it cost, beside the seconds.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub work: Option<Work>,
     /// Every attempt at a program.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub trace: Vec<Attempt>,
     /// The continuation of the state under dry friction.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub state_steps: Vec<StateStep>,
     /// Convex programs of load factors with dry friction.
-    #[serde(skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "is_zero")]
     pub dry_solves: usize,
     /// Steps of Newton's method.
-    #[serde(skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "is_zero")]
     pub newton_steps: usize,
     /// Poses through which a path was followed beside its points.
-    #[serde(skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "is_zero")]
     pub between: usize,
     /// Scenes that were asked about on the way.
-    #[serde(skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "is_zero")]
     pub scenes: usize,
     /// Where every block was at the times asked for.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub frames: Vec<FrameResult>,
 }
 
@@ -109,25 +109,25 @@ pub struct Run {
 #[serde(deny_unknown_fields, default)]
 pub struct Why {
     /// A path was not followed any further.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub path: Option<String>,
     /// There is no curve.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub no_curve: Option<String>,
     /// There is no curve with members.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub no_curve_with_members: Option<String>,
     /// There is no geometric safety factor.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub without_factor: Option<String>,
     /// Stages are undecided, by their names.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub stages: Vec<(String, Doubt)>,
     /// Values of a range make no scene.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub no_scene: Vec<(f64, String)>,
     /// What is said of a range.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub range: Vec<String>,
 }
 
@@ -178,7 +178,7 @@ impl ResultFile {
             Answer::Path(a) if a.why.is_none() => a.why = why.path,
             Answer::Kinematic(a) => {
                 (a.no_curve, a.no_curve_with_members) = (why.no_curve, why.no_curve_with_members);
-                if let Some(curve) = &mut a.curve {
+                if let Some(curve) = a.curve.as_mut().filter(|c| c.why.is_none()) {
                     curve.why = why.path;
                 }
             }

@@ -46,12 +46,12 @@ pub struct Simulation {
     /// What became of it.
     pub fate: Fate,
     /// When the first block had fallen, s.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub collapse: Option<f64>,
     /// The runs, the decisive one last.
     pub runs: Vec<Run>,
     /// Beside the verdict, where there is one.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub agreement: Option<Agreement>,
     /// The first motion, the blocks that moved farthest first; blocks at rest are left out.
     pub first_motion: Vec<BlockMotion>,
@@ -61,7 +61,7 @@ pub struct Simulation {
     /// loads: 0 at rest.
     pub reaction_error: f64,
     /// What the simulation could not respect.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub findings: Vec<Finding>,
 }
 

@@ -46,25 +46,25 @@ pub struct StagesAnswer {
     /// How many stand in all.
     pub stand: usize,
     /// The stage of the least load factor of its live load, where any has one.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub least_load_factor: Option<LeastMargin>,
     /// The stage that falls at the least tilt, in degrees, where any was asked for it.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub least_tilt_deg: Option<LeastMargin>,
     /// Of blocks taken out one at a time: those without which the rest stands.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub removable: Option<Vec<String>>,
     /// Of an order: the most blocks that are held at a time; absent where none was found.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub most_held: Option<usize>,
     /// Of an order: with fewer held at a time there is none, as far as the search went.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub least_held: Option<usize>,
     /// Of an order: so many blocks can be held at a time, where that was said.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hands: Option<usize>,
     /// How exactly the verdicts are proved, the weakest of all; absent where one is undecided.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub proof: Option<Grade>,
 }
 
@@ -74,7 +74,7 @@ pub struct LeastMargin {
     /// The stage.
     pub stage: String,
     /// The margin; absent where it did not come out, or has no limit.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<f64>,
     /// What became of it.
     pub status: FactorStatus,
@@ -84,13 +84,13 @@ pub struct LeastMargin {
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct StagesResult {
     /// The stages are the scene without each of its free blocks.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub remove_each: bool,
     /// The stages are those of this order.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub order: Option<Order>,
     /// So many blocks can be held at a time, where that was said.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hands: Option<usize>,
     /// In their order.
     pub list: Vec<StageResult>,
@@ -104,23 +104,23 @@ pub struct StageResult {
     /// Blocks that stand, supports among them.
     pub blocks: usize,
     /// Blocks that this stage holds.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub held: Vec<String>,
     /// Does it stand?
     pub verdict: Told,
     /// Where it stands and that was asked: the load factor of its live load, or else the least
     /// tilt.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub margin: Option<Told>,
     /// Why it has no margin although that was asked: loads that no tilt can turn.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub no_margin: Option<String>,
     /// Where it stands: the forces of its proof on supports and on what it holds. They are one
     /// state of equilibrium among others.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub reactions: Vec<Reaction>,
     /// Where it stands and that was asked: the least forces on what it holds.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub least_forces: Vec<HeldForce>,
     /// Why its verdict or its margin is undecided; it stands under `run`.
     #[serde(skip)]
@@ -152,7 +152,7 @@ pub struct HeldForce {
     pub weight: f64,
     /// The least force that holds it against that, N: 0 where the others can do without. Nothing
     /// where the least force did not come out.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub needed: Option<f64>,
     /// The evidence.
     #[serde(skip)]

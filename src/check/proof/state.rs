@@ -39,44 +39,44 @@ pub struct StateAnswer {
     /// gives, `undecided` where forces exist and no state was found.
     pub verdict: Verdict,
     /// How exactly it is proved that it stands; absent where no state was found.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub proof: Option<Grade>,
     /// Where joints with an area are integrated.
     pub quadrature: Quadrature,
     /// What is left of balance, of Signorini's and of Coulomb's conditions, the worst of all states.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub residuals: Option<Residuals>,
     /// Displacement of every free block under the dead load.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub displacements: Vec<Displacement>,
     /// What every joint does under the dead load.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub joints: Vec<JointAnswer>,
     /// The greatest numbers of them.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub greatest: Option<Greatest>,
     /// Lowest frequencies of small motion about the state under the dead load, Hz, ascending,
     /// contacts as they are; 0 of motions that nothing resists.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub frequencies: Vec<f64>,
     /// Along a live load: how far the path goes.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub load_factor: Option<PathFactor>,
     /// The point whose way the curve shows.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub control: Option<Watched>,
     /// The points of the path, the dead load first.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub curve: Vec<CurvePoint>,
     /// What happens on the way.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub events: Vec<Event>,
     /// What every joint does at the end of the path.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub joints_at_end: Vec<JointAnswer>,
     /// The forces in the members at the end of the path; those under the dead load stand beside the
     /// answer.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub members_at_end: Vec<MemberLine>,
 }
 
@@ -114,7 +114,7 @@ pub struct JointAnswer {
     /// Pressed area, m²; of spheres the circle of contact.
     pub pressed_area: f64,
     /// Its share of the joint; absent of spheres.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pressed_share: Option<f64>,
     /// How far its sides are apart where they are farthest, m; 0 where all of it presses.
     pub opening: f64,
@@ -175,10 +175,10 @@ pub struct Event {
     /// What.
     pub kind: EventKind,
     /// The joint.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub between: Option<[String; 2]>,
     /// The member.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub member: Option<String>,
 }
 

@@ -29,20 +29,20 @@ use std::sync::Arc;
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ThrustAnswer {
     /// The support.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub support: Option<String>,
     /// Unit direction of the thrust, or of the shear of a dowel.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub direction: Option<[f64; 3]>,
     /// The member whose force is meant, in place of a support.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub member: Option<String>,
     /// Its least value.
     pub least: Bound,
     /// Its greatest value.
     pub greatest: Bound,
     /// The geometric safety factor.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub geometric_factor: Option<Factor>,
 }
 
@@ -50,12 +50,12 @@ pub struct ThrustAnswer {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Factor {
     /// The factor, where there is one; it is beyond `lower` otherwise.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<f64>,
     /// With sections shrunk by this it stands.
     pub lower: f64,
     /// With sections shrunk by this it falls.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub upper: Option<f64>,
 }
 
@@ -69,7 +69,7 @@ pub struct ThrustResult {
     #[serde(skip)]
     pub greatest: Arc<Certificate>,
     /// Shrunk sections, with the verdict at each: `value` is the share of the section that is left.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub shrunk: Vec<Side>,
     /// Why there is no geometric safety factor; it stands under `run`.
     #[serde(skip)]
@@ -84,10 +84,10 @@ pub struct ThrustSection {
     /// The two blocks.
     pub between: [String; 2],
     /// At the least thrust, where found.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub least: Option<Line>,
     /// At the greatest.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub greatest: Option<Line>,
 }
 

@@ -33,53 +33,53 @@ pub struct Told {
     #[serde(skip)]
     pub certificate: Arc<Certificate>,
     /// Tilt and kinematic: every direction asked for. Moving: every position of the train.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub directions: Vec<Direction>,
     /// Whether it stands under its dead load alone, where that was asked as well.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dead_load: Option<Direction>,
     /// The load factor with dry friction.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dry: Option<DryResult>,
     /// What the state under dry friction does, where it was computed.
-    #[serde(rename = "state_under_dry_friction", skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "state_under_dry_friction", default, skip_serializing_if = "Option::is_none")]
     pub motion: Option<StateMotion>,
     /// Critical: the scan and both sides of every flip.
-    #[serde(rename = "search", skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "search", default, skip_serializing_if = "Option::is_none")]
     pub critical: Option<CriticalResult>,
     /// Thrust: the line of thrust.
-    #[serde(rename = "line_of_thrust", skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "line_of_thrust", default, skip_serializing_if = "Option::is_none")]
     pub thrust: Option<ThrustResult>,
     /// Settle, push and kinematic: the curve.
-    #[serde(rename = "curve", skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "curve", default, skip_serializing_if = "Option::is_none")]
     pub path: Option<PathResult>,
     /// Kinematic: the curve with members.
-    #[serde(rename = "curve_with_members", skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "curve_with_members", default, skip_serializing_if = "Option::is_none")]
     pub path_with_members: Option<PathResult>,
     /// Stages: every one.
-    #[serde(rename = "each_stage", skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "each_stage", default, skip_serializing_if = "Option::is_none")]
     pub stages: Option<StagesResult>,
     /// State: the bound on the live load.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bound: Option<Direction>,
     /// Rock: the evidence against the direction.
     #[serde(skip)]
     pub against: Option<Arc<Certificate>>,
     /// What happened in time, where it was simulated.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub simulation: Option<Simulation>,
     /// The mechanism in words.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mechanism: Option<MechanismWords>,
     /// The forces in the members of the scene, of the forces that prove the answer.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub members: Vec<MemberLine>,
     /// Contacts that were left out although blocks overlap or nearly touch, where there are such, and
     /// the answer with them closed.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub left_out_contacts: Option<LeftOutContacts>,
     /// What is to be known about the scene.
-    #[serde(rename = "warnings", skip_serializing_if = "Vec::is_empty")]
+    #[serde(rename = "warnings", default, skip_serializing_if = "Vec::is_empty")]
     pub scene_warnings: Vec<Finding>,
     /// How much there is of it.
     pub counts: Counts,
@@ -97,7 +97,7 @@ pub struct Counts {
     /// Number of contact points.
     pub contact_points: usize,
     /// Number of members: ties, struts, soil, …
-    #[serde(skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "is_zero")]
     pub members: usize,
 }
 
@@ -151,7 +151,7 @@ pub struct Direction {
     #[serde(skip)]
     pub certificate: Arc<Certificate>,
     /// A direction of a tilt or an earthquake, a position of a train: its load factor with dry friction.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dry: Option<DryResult>,
 }
 
@@ -179,7 +179,7 @@ pub struct MechanismWords {
     /// Moving joints.
     pub joints: Vec<JointWords>,
     /// Members that yield, go slack or slide.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub members: Vec<MemberWords>,
 }
 

@@ -15,7 +15,7 @@ pub struct VerificationFile<'a> {
     /// Whether the answer claims something and every part holds.
     proved: bool,
     /// The weakest grade of all that holds; absent where nothing is proved.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     proof: Option<Grade>,
     parts: Vec<Part<'a>>,
     /// What is to be known about the scene.

@@ -48,7 +48,7 @@ pub fn verify_model(
     match derive(saved.question.clone(), scene, model, evidence, saved.run.clone(), again) {
         Ok(Derived { file, mut check }) => {
             let here = serde_json::to_value(&file.told).unwrap_or_default();
-            check.parts.push(("said".into(), match compare::difference(&saved.answer, &here) {
+            check.parts.push(("answer in the file".into(), match compare::difference(&saved.answer, &here) {
                 None => crate::verdict::claim::Findings { holds: vec!["the answer is what follows from the evidence".into()], ..Default::default() },
                 Some(at) => failure(format!(
                     "the answer in the file is not what follows from its evidence: it differs at answer{at}"

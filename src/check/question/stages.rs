@@ -1,6 +1,6 @@
 //! Options of the question.
 
-use super::check_directions;
+use super::directions::check_directions;
 use crate::terms::Law;
 use base::error::{InputError, JsonPath};
 use schemars::JsonSchema;

@@ -22,7 +22,7 @@ pub fn run(
     terminal: &Terminal,
 ) -> anyhow::Result<Exit> {
     let mut model = prepare(scene).map_err(|e| source.located(e))?;
-    model.assembly.findings.splice(0..0, said);
+    model.assembly.said = said;
     let (mistakes, notes): (Vec<Finding>, Vec<Finding>) =
         model.findings().cloned().partition(|f| f.code.is_mistake());
     pictures.write(&View::bare(&model))?;

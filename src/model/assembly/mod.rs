@@ -56,6 +56,8 @@ pub struct Assembly {
     pub members: Vec<MemberPlan>,
     /// Contact tolerances.
     pub contact: ContactSpec,
+    /// What was said before: as files were read, of which scene of several it is.
+    pub said: Vec<Finding>,
     /// What was mended or assumed on the way.
     pub findings: Vec<Finding>,
 }

@@ -95,6 +95,7 @@ impl Shelf {
             given: Vec::new(),
             members: Vec::new(),
             contact: self.shapes.contact.clone(),
+            said: Vec::new(),
             findings: Vec::new(),
         })
     }

@@ -96,6 +96,7 @@ impl Model {
             gravity: of.gravity,
             joints: of.joints.clone(),
             contact: of.contact.clone(),
+            said: Vec::new(),
             findings: of.findings.clone(),
         };
         let list = self.interfaces.list.iter().filter(|f| stays[f.a] && stays[f.b]);
@@ -120,6 +121,11 @@ impl Model {
 
     /// Findings of every stage so far.
     pub fn findings(&self) -> impl Iterator<Item = &Finding> {
+        self.assembly.said.iter().chain(self.own_findings())
+    }
+
+    /// Those that follow from the scene, whoever reads it.
+    pub fn own_findings(&self) -> impl Iterator<Item = &Finding> {
         self.assembly.findings.iter().chain(&self.interfaces.findings)
     }
 

@@ -149,6 +149,7 @@ fn assembly(shapes: &[Shape]) -> Assembly {
         given: Vec::new(),
         members: Vec::new(),
         contact: ContactSpec::default(),
+        said: Vec::new(),
         findings: Vec::new(),
     }
 }

@@ -148,10 +148,10 @@ fn a_block_tips_over_its_edge_or_slides() {
             voussoir(&["generate", "column", "blocks=1", &size, "--friction", mu, "-o", &scene]),
         );
         let result = desk.saved(YES, &["tilt", &scene]);
-        assert_eq!(result["directions"].as_array().unwrap().len(), 8);
+        assert_eq!(result["answer"]["directions"].as_array().unwrap().len(), 8);
         let angle = result["answer"]["tilt_deg"]["value"].as_f64().unwrap();
         assert!((angle - f64::atan(tangent).to_degrees()).abs() < 1e-6, "{angle}");
-        assert_eq!(result["dead_load"]["answer"]["verdict"], "stable");
+        assert_eq!(result["answer"]["dead_load"]["answer"]["verdict"], "stable");
     }
 }
 
@@ -214,8 +214,8 @@ fn json_is_one_object_and_nothing_else() {
             ended(command().current_dir(desk.0.path()).args(&args).arg("--json").output().unwrap());
         let answer = expect(wanted, answer);
         let value: Value = serde_json::from_str(&out(&answer)).unwrap();
-        assert_eq!(value["format"], "voussoir-result/2");
-        assert_eq!(value["question"], args[0]);
+        assert_eq!(value["format"], "voussoir-result/3");
+        assert!(value["question"].get(args[0]).is_some());
         assert!(err(&answer).is_empty());
         // What is printed can be piped into the check.
         let check = if wanted == UNDECIDED { UNDECIDED } else { YES };

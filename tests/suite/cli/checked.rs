@@ -38,7 +38,7 @@ fn the_resolved_scene_is_printed_for_other_programs() {
     let blocks = model["blocks"].as_array().unwrap();
     let load = |b: &Value, part: &str| vector(&b["dead"][part]) + lambda * vector(&b["live"][part]);
     let mut sums: Vec<_> = blocks.iter().map(|b| (load(b, "force"), load(b, "moment"))).collect();
-    let forces = result["certificate"]["forces"].as_array().unwrap();
+    let forces = result["evidence"]["limit"]["factor"]["bound"]["forces"].as_array().unwrap();
     let faces = model["interfaces"].as_array().unwrap();
     assert_eq!(faces.len(), forces.len());
     for (face, carried) in faces.iter().zip(forces) {
@@ -82,7 +82,8 @@ fn a_verification_is_printed_for_other_programs() {
     let good = of(YES, &result);
     assert_eq!((&good["proved"], &good["refuted"]), (&json!(true), &json!(false)));
     let mut forged = result;
-    forged["certificate"]["forces"][3]["forces"][0][2] = json!(1e6);
+    forged["evidence"]["assess"]["standing"]["certificate"]["forces"][3]["forces"][0][2] =
+        json!(1e6);
     let bad = of(NO, &forged);
     assert_eq!((&bad["proved"], &bad["refuted"]), (&json!(false), &json!(true)));
     assert!(

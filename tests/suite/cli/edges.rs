@@ -61,7 +61,11 @@ fn what_is_saved_of_odd_directions_is_proved() {
 fn what_is_saved_of_grips_is_proved() {
     let desk = Desk::new();
     let saved = desk.proved(YES, &["tilt", &structure("grip-two-fingers"), "--toward=-0.1,-1"]);
-    assert!(saved["members"][0]["state"] == "at_strength", "{}", saved["members"]);
+    assert!(
+        saved["answer"]["members"][0]["state"] == "at_strength",
+        "{}",
+        saved["answer"]["members"]
+    );
     desk.proved(YES, &["tilt", &structure("grip-three-fingers"), "--toward=-0.1,-1"]);
     voussoir(&[
         "tilt",

@@ -127,12 +127,16 @@ fn simulate_writes_trajectories_and_results_that_check_knows() {
     );
     let file: Value = serde_json::from_str(&fs::read_to_string(&result).unwrap()).unwrap();
     assert_eq!(
-        (&file["question"], &file["answer"]["fate"], &file["answer"]["verdict"]),
-        (&json!("simulate"), &json!("falls"), &json!("unstable"))
+        (&file["answer"]["fate"], &file["answer"]["verdict"]),
+        (&json!("falls"), &json!("unstable"))
     );
-    assert_eq!(file["simulation"]["frames"][0]["blocks"].as_array().map(Vec::len), Some(3));
+    assert_eq!(file["run"]["frames"][0]["blocks"].as_array().map(Vec::len), Some(3));
     let checked = expect(YES, voussoir(&["check", &result]));
-    assert!(out(&checked).contains("observed, not proved"), "{}", out(&checked));
+    assert!(
+        out(&checked).contains("the engine does the same again (computed, not proved)"),
+        "{}",
+        out(&checked)
+    );
     let mut forged = file.clone();
     forged["answer"]["fate"] = json!("stands");
     let forged_path = path("forged.json");
@@ -142,8 +146,8 @@ fn simulate_writes_trajectories_and_results_that_check_knows() {
     let plain = expect(YES, with_input(&["simulate", "-", "--json", "--threads", "2"], PUSHED));
     let plain: Value = serde_json::from_str(&out(&plain)).unwrap();
     assert!(
-        plain["simulation"].get("frames").is_none()
-            && plain["simulation"]["agreement"]["agrees"] == json!(true)
+        plain["run"].get("frames").is_none()
+            && plain["answer"]["simulation"]["agreement"]["agrees"] == json!(true)
     );
 }
 
@@ -154,7 +158,7 @@ fn assess_simulates_when_asked_or_in_doubt() {
         let output =
             voussoir(&[&["assess", &format!("{file}{scene}.json"), "--json"], args].concat());
         let value: Value = serde_json::from_str(&out(&output)).unwrap();
-        value.get("simulation").map(|s| s["fate"].clone())
+        value["answer"].get("simulation").map(|s| s["fate"].clone())
     };
     assert_eq!(simulated(&[], "squeezed-block"), None);
     assert_eq!(simulated(&["--thorough"], "squeezed-block"), Some(json!("falls")));

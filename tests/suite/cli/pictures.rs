@@ -140,7 +140,10 @@ fn saved_results_and_scenes_are_drawn_by_check() {
     assert!(asked.contains("class=\"moved\"") && asked.contains(">hinge<"));
     fs::remove_file(&svg).unwrap();
     // What is refuted is not drawn.
-    scale(&mut result["certificate"]["rates"][0]["velocity"], -1.0);
+    scale(
+        &mut result["evidence"]["assess"]["standing"]["certificate"]["rates"][0]["velocity"],
+        -1.0,
+    );
     let file = desk.write("forged.json", &result);
     expect(NO, voussoir(&["check", &file, "--svg", &svg]));
     assert!(!desk.path("a.svg").exists());

@@ -41,7 +41,7 @@ fn rings_that_overlap_say_so_on_the_line_that_has_the_number() {
         assert!(err(&limit).contains("warning: without contacts between"), "{}", err(&limit));
     }
     let saved = desk.saved(YES, &["limit", &scene, "--law", "associative", "--skip-dead"]);
-    let said = &saved["left_out_contacts"];
+    let said = &saved["answer"]["left_out_contacts"];
     assert!(said["contacts"]["overlaps"].as_u64().unwrap() > 20, "{said}");
     assert_eq!(said["closed"]["difference"], "stronger");
     let closed = said["closed"]["answer"]["load_factor"]["value"].as_f64().unwrap();
@@ -63,11 +63,11 @@ fn rings_that_overlap_say_so_on_the_line_that_has_the_number() {
         ("answer", json!({ "load_factor": { "status": "unbounded" } })),
     ] {
         let mut forged = saved.clone();
-        forged["left_out_contacts"]["closed"][key] = value;
+        forged["answer"]["left_out_contacts"]["closed"][key] = value;
         desk.checked(NO, &forged);
     }
     let mut silent = saved;
-    silent.as_object_mut().unwrap().remove("left_out_contacts");
+    silent["answer"].as_object_mut().unwrap().remove("left_out_contacts");
     desk.checked(NO, &silent);
 }
 
@@ -85,8 +85,8 @@ fn what_falls_for_a_joint_that_overlaps_says_that_it_stands_with_it() {
     assert_eq!(json["answer"]["verdict"], "unstable");
     assert_eq!(
         (
-            &json["left_out_contacts"]["closed"]["answer"]["verdict"],
-            &json["left_out_contacts"]["closed"]["difference"]
+            &json["answer"]["left_out_contacts"]["closed"]["answer"]["verdict"],
+            &json["answer"]["left_out_contacts"]["closed"]["difference"]
         ),
         (&json!("stable"), &json!("stronger"))
     );
@@ -104,7 +104,7 @@ fn thrusts_and_flips_are_asked_again_with_contacts_closed() {
     let mut closed = rings();
     let given = desk.write("rings.json", &closed);
     let check = desk.saved(YES, &["limit", &given, "--law", "associative", "--skip-dead"]);
-    let contacts = &check["left_out_contacts"]["contacts"];
+    let contacts = &check["answer"]["left_out_contacts"]["contacts"];
     closed["contact"] =
         json!({ "gap": contacts["closing_gap"], "angle_deg": contacts["closing_angle_deg"] });
     let closed = desk.write("closed.json", &closed);
@@ -113,7 +113,7 @@ fn thrusts_and_flips_are_asked_again_with_contacts_closed() {
     assert!(line.contains("with them closed the least thrust is "), "{line}");
     let saved = desk.saved(UNDECIDED, &["thrust", &given]);
     let there = desk.saved(YES, &["thrust", &closed]);
-    let said = &saved["left_out_contacts"]["closed"];
+    let said = &saved["answer"]["left_out_contacts"]["closed"];
     assert_eq!(said["difference"], "another");
     for end in ["least", "greatest"] {
         let (a, b) = (&said["answer"]["thrust"][end], &there["answer"]["thrust"][end]);
@@ -122,7 +122,7 @@ fn thrusts_and_flips_are_asked_again_with_contacts_closed() {
     }
     desk.checked(YES, &saved);
     let mut forged = saved;
-    forged["left_out_contacts"]["closed"]["answer"]["thrust"]["least"]["value"] = json!(1.0);
+    forged["closed"]["answer"]["thrust"]["least"]["value"] = json!(1.0);
     desk.checked(NO, &forged);
 
     let flip = ["--vary", "/joints/default/friction", "--between", "0.1", "0.9", "--scan", "9"];
@@ -130,7 +130,7 @@ fn thrusts_and_flips_are_asked_again_with_contacts_closed() {
     let (here, there) = (ask(given.as_str()), ask(closed.as_str()));
     let saved = desk.saved(UNDECIDED, &here);
     let there = desk.saved(YES, &there);
-    let said = &saved["left_out_contacts"]["closed"];
+    let said = &saved["answer"]["left_out_contacts"]["closed"];
     assert_eq!(said["difference"], "another");
     let first = said["answer"]["flips"]["values"][0].as_f64().unwrap();
     let alone = there["answer"]["critical"][0]["value"].as_f64().unwrap();
@@ -150,8 +150,8 @@ fn contacts_that_change_nothing_are_not_said() {
     let assess = expect(YES, voussoir(&["assess", &scene, "-q"]));
     assert_eq!((out(&assess).as_str(), err(&assess).as_str()), ("Sunk: stands\n", ""));
     let saved = desk.saved(YES, &["assess", &scene]);
-    assert_eq!(saved["left_out_contacts"]["contacts"]["near_misses"], 1);
-    assert_eq!(saved["left_out_contacts"]["closed"]["difference"], "none");
+    assert_eq!(saved["answer"]["left_out_contacts"]["contacts"]["near_misses"], 1);
+    assert_eq!(saved["answer"]["left_out_contacts"]["closed"]["difference"], "none");
     desk.checked(YES, &saved);
 }
 
@@ -188,14 +188,14 @@ fn undecided_answers_say_why_and_what_next() {
             voussoir(&[&question[..], &["--json"]].concat()),
         )))
         .unwrap();
-        assert_eq!(json["doubt"]["cause"], cause, "{question:?}");
-        assert!(!json["doubt"]["evidence"].as_str().unwrap().is_empty());
-        assert_eq!(json["doubt"]["next"], next);
+        assert_eq!(json["run"]["doubt"]["cause"], cause, "{question:?}");
+        assert!(!json["run"]["doubt"]["evidence"].as_str().unwrap().is_empty());
+        assert_eq!(json["run"]["doubt"]["next"], next);
     }
     // What is decided has no doubt.
     let json: Value =
         serde_json::from_str(&out(&expect(YES, voussoir(&["assess", &arch, "--json"])))).unwrap();
-    assert!(json.get("doubt").is_none());
+    assert!(json["run"].get("doubt").is_none());
 }
 
 /// What a packing of one's own does not give to a protocol, and what was taken for granted of it.

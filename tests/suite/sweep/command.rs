@@ -215,7 +215,7 @@ fn the_worst_case_is_an_answer_like_others() {
     }
     let saved: Value =
         serde_json::from_str(&fs::read_to_string(at.join("result.json")).unwrap()).unwrap();
-    assert_eq!(saved["scene"]["input"]["joints"]["default"]["friction"], json!(0.6));
+    assert_eq!(saved["scene"]["joints"]["default"]["friction"], json!(0.6));
     expect(0, at, &["check", "result.json"]);
     let error = expect(2, at, &["assess", "scene.json", "--worst", "frictoin=1..2"]).stderr;
     assert!(String::from_utf8_lossy(&error).contains("known are friction"));

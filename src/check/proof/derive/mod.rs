@@ -115,7 +115,7 @@ pub fn derive(
     let mut own = Derivation { question: &question, scene, model, again, check };
     let mut told = own.told(&evidence)?;
     own.left_out(&mut told, closed.as_ref())?;
-    told.scene_warnings = model.findings().cloned().collect();
+    told.scene_warnings = model.own_findings().cloned().collect();
     let check = own.check;
     let name = scene.name.clone();
     let scene = SceneSummary { name, counts: told.counts, input: scene.clone() };

@@ -197,25 +197,25 @@ pub fn upper_bound(motion: Option<MotionProof>, to_first_order: impl Fn() -> f64
     }
 }
 
-/// Of two ends between which a load factor is said to lie, those that forces and a mechanism prove.
+/// Of two ends between which a load factor is said to lie, those that forces and a mechanism give,
+/// as far as rounding tells. Nothing is claimed by them.
 pub fn ends(
     model: &Model,
     forces: &Forces,
     rates: &[Rate],
     [lower, upper]: [Option<f64>; 2],
 ) -> [Option<f64>; 2] {
-    let natural = natural_factor(&model.assembly);
     let lower = lower.filter(|lower| {
         let mut f = Findings::default();
-        let width =
-            tolerance::LOAD_FACTOR_WIDTH * lower.abs() + tolerance::LOAD_FACTOR_FLOOR * natural;
-        supported(&mut f, model, (forces, rates), *lower, width);
-        f.fails.is_empty()
+        let s = certificate::statics(model, forces, *lower);
+        cones(&mut f, "", model, &s);
+        s.unbalance <= tolerance::LOOSE_BALANCE && f.fails.is_empty()
     });
-    let unit = certificate::at_unit_speed(&model.assembly, rates);
     let upper = upper.filter(|upper| {
-        let mut f = Findings::default();
-        upper_end(&mut f, model, forces, &unit, *upper) <= *upper && f.fails.is_empty()
+        let k = certificate::kinematics(model, rates, forces);
+        let room = tolerance::LOAD_FACTOR_BEHIND * upper.abs();
+        let behind = k.excess * largest(forces);
+        k.live_power > 0.0 && k.upper() <= upper + room && behind <= room * k.live_power
     });
     [lower, upper]
 }

@@ -110,6 +110,7 @@ pub fn resolve_with(scene: &Scene, blocks: Blocks) -> Result<Assembly, InputErro
         given: Vec::new(),
         members: Vec::new(),
         contact: scene.contact.clone(),
+        said: Vec::new(),
         findings,
         joints,
         blocks,

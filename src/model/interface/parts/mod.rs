@@ -160,6 +160,7 @@ impl Part {
             given: Vec::new(),
             members: Vec::new(),
             contact: assembly.contact.clone(),
+            said: Vec::new(),
             findings: Vec::new(),
         };
         let interfaces = Interfaces { list, members: joined, ..Interfaces::default() };
