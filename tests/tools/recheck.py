@@ -392,6 +392,8 @@ def judge(result, model):
             verdict_or_not(Scene(model), evidence["dead"], answer["verdict"])
         factor(Scene(model), evidence["factor"], answer["load_factor"])
     elif kind == "tilt":
+        if evidence.get("level"):
+            verdict_or_not(Scene(model), evidence["level"], answer["verdict"])
         told = [d["answer"] for d in answer.get("directions", [{"answer": answer}])]
         if len(told) != len(evidence["directions"]):
             raise Refuted("a direction is missing")
@@ -401,6 +403,8 @@ def judge(result, model):
             factor(scene, own, said["tan_tilt"])
     elif kind == "thrust":
         if "thrust" in answer:
+            said = answer.get("dead_load", {"answer": {"verdict": "undecided"}})
+            verdict_or_not(Scene(model), evidence["standing"], said["answer"]["verdict"])
             thrust(Scene(model), evidence, question, answer["thrust"])
         else:
             verdict(Scene(model), evidence["standing"], answer["verdict"])
