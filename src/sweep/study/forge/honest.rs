@@ -1,9 +1,10 @@
 //! Honest results of a scene, of every kind of question that it can be asked.
 
 use analysis::{
-    AssessOptions, Control, ControlPoint, CriticalOptions, KinematicOptions, Law, LimitOptions,
-    PushOptions, Question, SettleOptions, SimulateOptions, StagesOptions, StateOptions,
-    SupportMove, ThrustOptions, TiltOptions, ask, recompute::Solvers, saved,
+    Answer, AssessOptions, Assessment, Control, ControlPoint, CriticalOptions, KinematicOptions,
+    Law, LimitOptions, Limited, Proved, PushOptions, Question, SettleOptions, SimulateOptions,
+    StagesOptions, StateOptions, SupportMove, ThrustOptions, TiltOptions, ask, assess,
+    recompute::Solvers, saved,
 };
 use base::error::InputError;
 use check::proof::{read::read_str, verify::verify_model};
@@ -16,7 +17,12 @@ use solve::deadline::Deadline;
 pub(super) struct Honest {
     /// The question.
     pub name: &'static str,
+    pub model: Model,
     pub file: Value,
+    /// The verdict under dead load, as computed.
+    pub standing: Proved<Assessment>,
+    /// The load factor, where it was asked.
+    pub limit: Option<Limited>,
 }
 
 /// Seconds for a question.
@@ -26,14 +32,20 @@ const SECONDS: f64 = 10.0;
 /// of a family it is.
 pub(super) fn results(scene: &Scene, turn: usize) -> Result<Vec<Honest>, InputError> {
     let model = prepare(scene)?;
+    let standing = assess(&model, &control());
     let mut list = Vec::new();
     for question in questions(&model, turn) {
         // Of some scenes not everything can be asked: dead loads that do not hang, supports that
         // nothing pushes.
-        let Some(file) = asked(&question, scene, &model) else { continue };
+        let Some((answer, file)) = answered(&question, scene, &model) else { continue };
         let Ok(saved) = read_str("honest", file.to_string()) else { continue };
         if verify_model(&saved, scene, &model, &Solvers).proved() {
-            list.push(Honest { name: question.word(), file });
+            let limit = match answer {
+                Answer::Limit(l) => Some(*l),
+                _ => None,
+            };
+            let (name, model, standing) = (question.word(), model.clone(), standing.clone());
+            list.push(Honest { name, model, file, standing, limit });
         }
     }
     Ok(list)
@@ -41,9 +53,17 @@ pub(super) fn results(scene: &Scene, turn: usize) -> Result<Vec<Honest>, InputEr
 
 /// The result of a question; nothing where it cannot be asked.
 pub(super) fn asked(question: &Question, scene: &Scene, model: &Model) -> Option<Value> {
-    let control = Control { deadline: Deadline::within(SECONDS), ..Control::default() };
-    let answer = ask(question, scene, model, &control).ok()?;
-    saved::of(question, scene, model, &answer).ok()?.to_value().ok()
+    answered(question, scene, model).map(|(_, file)| file)
+}
+
+fn answered(question: &Question, scene: &Scene, model: &Model) -> Option<(Answer, Value)> {
+    let answer = ask(question, scene, model, &control()).ok()?;
+    let file = saved::of(question, scene, model, &answer).ok()?.to_value().ok()?;
+    Some((answer, file))
+}
+
+fn control() -> Control {
+    Control { deadline: Deadline::within(SECONDS), ..Control::default() }
 }
 
 /// Questions of every kind; the dear ones by turns.

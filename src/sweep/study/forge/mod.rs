@@ -4,10 +4,15 @@
 //! What is changed: leaves of the answer, one or several; of the question; of the evidence and of the
 //! scene, with the answer that follows from it, as a forger who knows the program would have it. A
 //! changed answer is false, for it is not what follows. What follows from changed evidence, question
-//! or scene may be true: that is decided by asking anew.
+//! or scene may be true: that is decided by asking anew. Beside them evidence is made for the opposite
+//! of what is proved, and for other load factors: rates whose squares vanish or overflow, forces that
+//! absorb the loads in their rounding, that pull, that cancel in pairs.
 
+mod draft;
+mod factors;
 mod honest;
 mod mutate;
+mod opposite;
 
 use crate::{
     keep::{Kept, Numbered, numbered},
@@ -146,17 +151,26 @@ fn forge(
         let random = &mut Random::apart(seed ^ 0x466f_7267, index);
         for honest in honest(seed, index)? {
             *forged.results.entry(honest.name.into()).or_default() += 1;
-            for _ in 0..EACH {
-                let Some((part, what, file)) = mutate(&honest.file, random) else { continue };
-                *forged.made.entry(part.word().into()).or_default() += 1;
+            let mut held = |part: Part, kind: &str, what: String, file: &Value| {
+                *forged.made.entry(kind.into()).or_default() += 1;
                 let begin = Instant::now();
-                if let Some(false_in) = lies(part, &file) {
-                    accepted(&honest, part.word(), &file, forged.count());
+                if let Some(false_in) = lies(part, file) {
+                    accepted(&honest, kind, file, forged.count());
                     let what = format!("{what}: {false_in}");
-                    let (question, kind) = (honest.name.into(), part.word().into());
+                    let (question, kind) = (honest.name.into(), kind.into());
                     forged.accepted.push(Accepted { question, kind, what });
                 }
                 forged.verifying += begin.elapsed().as_secs_f64();
+            };
+            for _ in 0..EACH {
+                if let Some((part, what, file)) = mutate(&honest.file, random) {
+                    held(part, part.word(), what, &file);
+                }
+            }
+            // False by construction: what is proved excludes it.
+            let made = opposite::forge(&honest, random);
+            for forgery in made.into_iter().chain(factors::forge(&honest, random)) {
+                held(Part::Answer, forgery.kind, forgery.what, &forgery.file);
             }
         }
         Ok::<_, base::error::InputError>(())

@@ -61,7 +61,7 @@ pub(super) fn mutate(honest: &Value, random: &mut Random) -> Option<(Part, Strin
 }
 
 /// The file with the answer that follows from the rest of it.
-fn told(mut file: Value) -> Option<Value> {
+pub(super) fn told(mut file: Value) -> Option<Value> {
     let saved = read_str("forged", file.to_string()).ok()?;
     let model = prepare(&saved.scene).ok()?;
     let evidence = (saved.evidence, saved.closed);
