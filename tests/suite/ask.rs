@@ -174,9 +174,12 @@ fn leaves(value: &Value, at: String, all: &mut Vec<String>) {
     }
 }
 
+/// What is edited, and how.
+pub type Edit<'a> = (&'a str, &'a dyn Fn(&mut Value));
+
 /// Edits of what a result follows from, with the answer that follows then: none is called proved.
 #[track_caller]
-pub fn edits_are_refused(scene: &Scene, file: &ResultFile, edits: &[(&str, &dyn Fn(&mut Value))]) {
+pub fn edits_are_refused(scene: &Scene, file: &ResultFile, edits: &[Edit]) {
     for (what, edit) in edits {
         for consistent in [false, true] {
             let survives = survives(scene, file, |value| {

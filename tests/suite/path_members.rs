@@ -156,7 +156,7 @@ fn a_block_held_by_a_tie_tilts_as_its_base_moves_and_falls() {
         let own = &mut v["evidence"]["settle"]["points"][2]["certificate"]["members"];
         *own = members(own);
     };
-    let edits: [(&str, &dyn Fn(&mut Value)); 2] = [
+    let edits: [crate::ask::Edit; 2] = [
         ("it carries more", &|v| {
             members(v, &|own| {
                 let mut own = own.clone();

@@ -271,7 +271,7 @@ fn changed_slips_and_poses_are_refused() {
         let own = &mut v["evidence"]["settle"]["points"][middle]["poses"];
         change(own.as_array_mut().unwrap());
     };
-    let edits: [(&str, &dyn Fn(&mut Value)); 2] = [
+    let edits: [crate::ask::Edit; 2] = [
         ("a wedge that has not sunk", &|v| {
             poses(v, &|list| list.retain(|pose| pose["block"] != "key"));
         }),

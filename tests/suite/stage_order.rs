@@ -173,7 +173,7 @@ fn forged_orders_are_refused() {
     fn order(v: &mut Value) -> &mut Value {
         &mut v["evidence"]["stages"]["order"]
     }
-    let edits: [(&str, &dyn Fn(&mut Value)); 4] = [
+    let edits: [crate::ask::Edit; 4] = [
         ("nothing is held", &|v| {
             for placed in order(v)["placed"].as_array_mut().unwrap() {
                 placed.as_object_mut().unwrap().remove("held");

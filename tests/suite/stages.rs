@@ -284,7 +284,7 @@ fn forged_results_are_refused() {
     fn stages(v: &mut Value) -> &mut Vec<Value> {
         v["evidence"]["stages"]["stages"].as_array_mut().unwrap()
     }
-    let edits: [(&str, &dyn Fn(&mut Value)); 3] = [
+    let edits: [crate::ask::Edit; 3] = [
         ("another's proof", &|v| stages(v)[k]["standing"] = stages(v)[k - 1]["standing"].clone()),
         ("a stage left out", &|v| drop(stages(v).remove(k))),
         ("another's margin", &|v| stages(v)[0]["tilts"] = stages(v)[1]["tilts"].clone()),
@@ -310,7 +310,7 @@ fn forged_forces_on_what_is_held_are_refused() {
     fn held(v: &mut Value) -> &mut Value {
         &mut v["evidence"]["stages"]["stages"][0]["least_forces"]
     }
-    let edits: [(&str, &dyn Fn(&mut Value)); 2] = [
+    let edits: [crate::ask::Edit; 2] = [
         ("another block", &|v| held(v)[0]["block"] = json!("stone")),
         ("nothing of it", &|v| *held(v) = json!([])),
     ];

@@ -617,7 +617,7 @@ fn forged_results_are_refused() {
         let own = &mut v["evidence"]["state"]["steps"][k]["displacements"][0][key][axis];
         *own = json!(own.as_f64().unwrap() * 1.001 + 1e-9);
     };
-    let edits: [(&str, &dyn Fn(&mut Value)); 3] = [
+    let edits: [crate::ask::Edit; 3] = [
         ("sunk deeper", &|v| step(v, 0, "displacement", 2)),
         ("turned more", &|v| step(v, 9, "rotation", 1)),
         ("integrated otherwise", &|v| v["question"]["state"]["quadrature"] = json!("corners")),

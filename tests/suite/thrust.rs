@@ -252,7 +252,7 @@ fn forged_thrusts_are_refused() {
     let file = ask_at(&s, None, None, &associative());
     crate::ask::leaves_hold(&file);
     let ends = |v: &mut Value, k: usize| v["evidence"]["thrust"]["ends"][k].take();
-    let edits: [(&str, &dyn Fn(&mut Value)); 6] = [
+    let edits: [crate::ask::Edit; 6] = [
         ("the support", &|v| v["question"]["thrust"]["support"] = json!("springer_right")),
         ("the direction", &|v| v["question"]["thrust"]["direction"] = json!([1.0, 0.0, 0.0])),
         ("forces", &|v| {

@@ -173,7 +173,7 @@ fn edited_results_are_refused() {
     fn positions(v: &mut Value) -> &mut Vec<Value> {
         v["evidence"]["moving"]["positions"].as_array_mut().expect("positions")
     }
-    let edits: [(&str, &dyn Fn(&mut Value)); 4] = [
+    let edits: [crate::ask::Edit; 4] = [
         ("a step left out", &|v| drop(positions(v).remove(0))),
         ("no positions", &|v| positions(v).clear()),
         ("the certificate of another position", &|v| {

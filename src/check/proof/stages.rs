@@ -362,7 +362,7 @@ fn complete(d: &Derivation, f: &mut Findings, o: &StagesOptions, order: &Order) 
     let free = d.model.assembly.free().count();
     let all = order.placed.is_empty() || order.placed.len() == free;
     require(f, all, format!("every free block is placed, {free} of them"));
-    require(f, order.given == !o.order.is_empty(), "the order is given where it is");
+    require(f, order.given != o.order.is_empty(), "the order is given where it is");
     let least = order.least_held;
     f.computed = true;
     if least == 0 || !f.fails.is_empty() || !d.asks_again() {
