@@ -856,7 +856,7 @@ class Stages(Answer):
     @property
     def order(self) -> list[str] | None:
         """Of an order: the blocks as they are placed; empty where none was found."""
-        order = self.to_dict()["stages"].get("order")
+        order = self.to_dict()["answer"]["each_stage"].get("order")
         return None if order is None else [p["block"] for p in order.get("placed", [])]
 
     @property
@@ -874,20 +874,19 @@ class Stages(Answer):
         import pandas
 
         def margin(stage: dict[str, Any], key: str) -> float | None:
-            answer = stage.get("margin", {}).get("answer", {})
-            value: float | None = answer.get(key, {}).get("value")
+            value: float | None = stage.get("margin", {}).get(key, {}).get("value")
             return value
 
         rows = [
             {
                 "name": stage["name"],
-                "verdict": stage["verdict"]["answer"]["verdict"],
+                "verdict": stage["verdict"]["verdict"],
                 "blocks": stage["blocks"],
                 "held": stage.get("held", []),
                 "load_factor": margin(stage, "load_factor"),
                 "tilt_deg": margin(stage, "tilt_deg"),
             }
-            for stage in self.to_dict()["stages"]["list"]
+            for stage in self.to_dict()["answer"]["each_stage"]["list"]
         ]
         return pandas.DataFrame(rows)
 
