@@ -193,7 +193,7 @@ impl Answer {
         which: &str,
     ) -> PyResult<Option<(Bound<'py, PyAny>, Vec<String>)>> {
         let Some(certificate) = self.certificate(which) else { return Ok(None) };
-        Ok(Some((pythonize(py, &certificate.claim)?, certificate.verified().to_vec())))
+        Ok(Some((pythonize(py, &certificate.claim)?, certificate.verified())))
     }
 
     /// The forces of a certificate in flat arrays; `None` where there is none.

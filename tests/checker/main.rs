@@ -92,3 +92,13 @@ fn a_result_of_another_scene_is_refused() {
     let other = read_str("result.json", STANDS).expect("a result").scene;
     assert!(verify(&file, &other, &Nothing).expect("a scene").refuted());
 }
+
+/// What was found on one scene says nothing about another.
+#[test]
+fn a_result_is_checked_anew_on_every_scene() {
+    let file = read_str("result.json", STANDS).expect("a result");
+    assert!(!verify(&file, &file.scene, &Nothing).expect("a scene").refuted());
+    let smooth = file.scene.with_field("/joints/default/friction", 0.01).expect("a scene");
+    assert!(verify(&file, &smooth, &Nothing).expect("a scene").refuted());
+    assert!(!verify(&file, &file.scene, &Nothing).expect("a scene").refuted());
+}

@@ -15,10 +15,10 @@ use crate::{
 use model::interface::Model;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, PoisonError, RwLock};
 
 /// The evidence for a claim.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Certificate {
     /// What it proves; absent where it proves nothing.
@@ -38,9 +38,25 @@ pub struct Certificate {
     pub base_members: Vec<MemberForce>,
     /// Kinematic side: rates per moving block.
     pub rates: Vec<BlockRate>,
-    /// What its check on the scene found, once it was made. Never read from a file.
+    /// What its last check on a scene found. Never read from a file, and taken for true by nobody but
+    /// who made it this moment.
     #[serde(skip)]
-    checked: OnceLock<Findings>,
+    checked: RwLock<Option<Findings>>,
+}
+
+impl PartialEq for Certificate {
+    /// Whether the evidence is the same, whatever was found of it.
+    fn eq(&self, other: &Self) -> bool {
+        (&self.claim, &self.forces, &self.members, &self.base, &self.base_members, &self.rates)
+            == (
+                &other.claim,
+                &other.forces,
+                &other.members,
+                &other.base,
+                &other.base_members,
+                &other.rates,
+            )
+    }
 }
 
 /// Evidence read on the model that it is about, with what it proves there.
@@ -54,6 +70,8 @@ pub struct Proven {
     pub base: Option<Forces>,
     /// The rates of all blocks.
     pub rates: Vec<Rate>,
+    /// How exactly the claim is proved.
+    pub grade: Option<Grade>,
 }
 
 impl Certificate {
@@ -65,20 +83,15 @@ impl Certificate {
         findings: &Findings,
     ) -> Arc<Self> {
         let Evidence { forces, base, rates } = evidence;
-        let own = Self {
+        Arc::new(Self {
             claim,
             forces: write_forces(model, forces),
             members: write_members(model, forces),
             base: base.map(|f| write_forces(model, f)),
             base_members: base.map_or_else(Vec::new, |f| write_members(model, f)),
             rates: write_rates(&model.assembly, rates),
-            checked: OnceLock::new(),
-        };
-        if claim.is_some() {
-            // Empty so far: nothing is lost.
-            let _ = own.checked.set(findings.clone());
-        }
-        Arc::new(own)
+            checked: RwLock::new(claim.map(|_| findings.clone())),
+        })
     }
 
     /// Whether nothing is in it.
@@ -91,9 +104,10 @@ impl Certificate {
             && self.rates.is_empty()
     }
 
-    /// What the check of its claim found, a line each; nothing before it was made.
-    pub fn verified(&self) -> &[String] {
-        self.checked.get().map_or(&[], |f| &f.holds)
+    /// What the last check of its claim found, a line each; nothing before one was made.
+    pub fn verified(&self) -> Vec<String> {
+        let checked = self.checked.read().unwrap_or_else(PoisonError::into_inner);
+        checked.as_ref().map(|f| f.holds.clone()).unwrap_or_default()
     }
 
     /// The forces that it holds, of contacts and members, and those without the pre-stress or at
@@ -115,8 +129,9 @@ impl Certificate {
     }
 
     /// Reads it on its model and proves its claim there, adding what holds and what fails to `f`.
-    /// Evidence that does not fit the model is nothing.
-    pub fn prove(&self, f: &mut Findings, model: &Model) -> Option<Proven> {
+    /// Evidence that does not fit the model is nothing. `known`: its claim was checked on this model
+    /// this moment, by who made it.
+    pub fn prove(&self, f: &mut Findings, model: &Model, known: bool) -> Option<Proven> {
         let read = || -> Result<_, String> {
             let (forces, base) = self.read(model)?;
             Ok((forces, base, read_rates(&model.assembly, &self.rates)?))
@@ -128,19 +143,25 @@ impl Certificate {
                 return None;
             }
         };
-        let mut claim = None;
+        let mut proven = Proven { claim: None, forces, base, rates, grade: None };
         if let Some(own) = &self.claim {
-            let evidence = Evidence { forces: &forces, base: base.as_ref(), rates: &rates };
-            let found = self.checked.get_or_init(|| claim::verify(model, own, evidence));
-            claim = self.claim.filter(|_| found.proved());
-            f.and(found);
+            let kept = || self.checked.read().unwrap_or_else(PoisonError::into_inner).clone();
+            let found = match known.then(kept).flatten() {
+                Some(found) => found,
+                None => {
+                    let Proven { forces, base, rates, .. } = &proven;
+                    let evidence = Evidence { forces, base: base.as_ref(), rates };
+                    let found = claim::verify(model, own, evidence);
+                    let mut checked = self.checked.write().unwrap_or_else(PoisonError::into_inner);
+                    *checked = Some(found.clone());
+                    found
+                }
+            };
+            proven.claim = self.claim.filter(|_| found.proved());
+            proven.grade = proven.claim.map(|_| found.grade);
+            f.and(&found);
         }
-        Some(Proven { claim, forces, base, rates })
-    }
-
-    /// How exactly its claim is proved, once it was checked.
-    pub fn grade(&self) -> Option<Grade> {
-        self.checked.get().filter(|f| f.proved()).map(|f| f.grade)
+        Some(proven)
     }
 }
 

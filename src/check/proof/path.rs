@@ -130,6 +130,9 @@ pub struct PathPoint {
     /// What is proved of that scene.
     #[serde(skip)]
     pub certificate: Arc<Certificate>,
+    /// Its claim, where that holds.
+    #[serde(skip)]
+    pub proved: Option<Claim>,
     /// Of a load factor with dry friction: the load factor of joints that open as they slide, which
     /// no value passes.
     #[serde(rename = "bound", default, skip_serializing_if = "Option::is_none")]

@@ -160,7 +160,7 @@ pub(super) fn derive(
     for (k, (title, toward, certificate)) in sides.into_iter().enumerate() {
         let own = part(d, said, toward)?;
         let mut f = Findings::default();
-        let proven = certificate.prove(&mut f, &own);
+        let proven = certificate.prove(&mut f, &own, d.known());
         let none = |status| Bound { status, value: None, lower: None, upper: None };
         let bound = match proven.as_ref().and_then(|p| p.claim) {
             Some(Claim::LoadFactor { value, lower, upper }) => Bound {
@@ -176,7 +176,7 @@ pub(super) fn derive(
                 none(Outcome::Undecided)
             }
         };
-        grade = grade.and_then(|g| Some(g.and(certificate.grade()?)));
+        grade = grade.and_then(|g| Some(g.and(proven.as_ref()?.grade?)));
         if k == 0 {
             require(
                 &mut f,

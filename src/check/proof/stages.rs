@@ -466,7 +466,7 @@ impl Derivation<'_> {
         let mut list = Vec::new();
         for own in &e.least_forces {
             let title = format!("{name}, held {}", own.block);
-            match least(own, model, held) {
+            match least(own, model, held, self.known()) {
                 Ok((force, f)) => {
                     self.part(title, f);
                     list.push(force);
@@ -515,6 +515,7 @@ fn least(
     e: &HeldEvidence,
     model: &Model,
     held: &[String],
+    known: bool,
 ) -> Result<(HeldForce, Findings), String> {
     let mut f = Findings::default();
     let fits = held.contains(&e.block);
@@ -525,7 +526,7 @@ fn least(
     require(&mut f, along, "its direction is a unit one");
     let none = |status| Bound { status, value: None, lower: None, upper: None };
     let own = ThrustAt { support, direction: e.direction };
-    let claim = e.certificate.prove(&mut f, model).and_then(|p| p.claim);
+    let claim = e.certificate.prove(&mut f, model, known).and_then(|p| p.claim);
     let (fits, least) = match claim {
         None => (true, none(Outcome::Undecided)),
         Some(Claim::Thrust { at, extreme, value, lower, upper }) => {

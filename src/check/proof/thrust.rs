@@ -250,7 +250,7 @@ fn end(
     (title, e): (String, &Certificate),
 ) -> (Bound, Option<Forces>) {
     let mut f = Findings::default();
-    let proven = e.prove(&mut f, d.model);
+    let proven = e.prove(&mut f, d.model, d.known());
     let none = |status| Bound { status, value: None, lower: None, upper: None };
     let found = |value, lower, upper| Bound {
         status: Outcome::Found,

@@ -73,7 +73,7 @@ pub fn render(file: &ResultFile, asked: Asked, options: TextOptions, layout: Lay
     moving::rows(&mut page, file, options);
     shaken::rows(&mut page, file, options);
     simulation::rows(&mut page, file, options);
-    page.row("proof", file.certificate.verified().iter().cloned());
+    page.row("proof", file.certificate.verified());
     let s = &file.scene.counts;
     page.row(
         "scene",

@@ -151,7 +151,7 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
     }
     for (label, p) in ["stands at", "falls at"].iter().zip(&path.ends) {
         let head = format!("{}, proved:", p.value);
-        let proof = p.certificate.verified().iter().map(|v| format!("  {v}"));
+        let proof = p.certificate.verified().into_iter().map(|v| format!("  {v}"));
         page.row(label, std::iter::once(head).chain(proof));
     }
     let proved = path.points.iter().filter(|p| p.certificate.claim.is_some()).count();

@@ -149,7 +149,8 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
         };
         page.row(
             label,
-            std::iter::once(text).chain(certificate.verified().iter().map(|v| format!("  {v}"))),
+            std::iter::once(text)
+                .chain(certificate.verified().into_iter().map(|v| format!("  {v}"))),
         );
     }
     for (label, line) in

@@ -37,7 +37,7 @@ impl Derivation<'_> {
             natural_map: None,
             certificate: e.certificate.clone(),
         };
-        let mut f = proof(&mut told, at, (bound, evidence), e);
+        let mut f = proof(&mut told, (at, self.known()), (bound, evidence), e);
         let status = bound.status;
         if e.found == Found::RestsBelow {
             let zero = at(0.0).map_or(0.0, |model: Model| {
@@ -148,7 +148,7 @@ impl Derivation<'_> {
 /// What its evidence claims, which fits how it was found.
 fn proof(
     told: &mut DryResult,
-    at: At,
+    (at, known): (At, bool),
     (bound, evidence): (Bound, &Certificate),
     e: &DryEvidence,
 ) -> Findings {
@@ -172,7 +172,7 @@ fn proof(
                 Err(e) => return failure(e.to_string()),
             };
             let mut f = Findings::default();
-            if let Some(proven) = e.certificate.prove(&mut f, &model) {
+            if let Some(proven) = e.certificate.prove(&mut f, &model, known) {
                 told.natural_map = law::natural_map(&model, &proven.forces, &proven.rates)
                     .filter(|map| map.is_finite());
                 told.part = deciding(&model, &proven.rates);

@@ -56,7 +56,7 @@ impl Derivation<'_> {
         dead: Option<Verdict>,
     ) -> Factor {
         let mut f = Findings::default();
-        let proven = e.bound.prove(&mut f, model);
+        let proven = e.bound.prove(&mut f, model, self.known());
         let claim = proven.as_ref().and_then(|p| p.claim);
         let none = |status| Bound { status, value: None, lower: None, upper: None };
         let bound = match claim {
@@ -96,7 +96,7 @@ impl Derivation<'_> {
             answer: LoadFactorAnswer::new(bound, dry.as_ref()),
             dry,
             part,
-            proof: claim.and(e.bound.grade()),
+            proof: proven.as_ref().and_then(|p| p.grade),
             proven,
         }
     }

@@ -151,6 +151,11 @@ impl Derivation<'_> {
         self.check.part(title, findings);
     }
 
+    /// Whether evidence with a check was checked this moment, by who asks.
+    pub(super) fn known(&self) -> bool {
+        self.again.just_computed()
+    }
+
     /// Whether what is computed and not proved is to be computed again.
     pub(super) fn asks_again(&self) -> bool {
         !self.again.just_computed() && !self.check.refuted()

@@ -24,7 +24,7 @@ impl Derivation<'_> {
         model: &Model,
         e: &Standing,
     ) -> (VerdictAnswer, Option<Proven>) {
-        let proven = e.certificate.prove(f, model);
+        let proven = e.certificate.prove(f, model, self.known());
         let claim = proven.as_ref().and_then(|p| p.claim);
         if claim.is_some_and(|c| c.verdict().is_none()) {
             f.fails.push("what is proved is no verdict".into());
@@ -32,6 +32,13 @@ impl Derivation<'_> {
         let verdict = claim.and_then(|c| c.verdict()).unwrap_or(Verdict::Undecided);
         if claim.is_none() {
             f.holds.push("undecided: nothing is claimed".into());
+        }
+        if let (Some(StateMotion::Moves), false) = (e.state, verdict == Verdict::Conditional) {
+            f.computed = true;
+            if self.asks_again() && f.fails.is_empty() {
+                let moves = self.again.motion(model).map(|motion| motion == StateMotion::Moves);
+                computed(f, moves, "the state under dry friction moves".into());
+            }
         }
         let law = (verdict == Verdict::Stable).then(|| self.rests(f, model, e.state));
         let part = proven.as_ref().filter(|_| verdict != Verdict::Stable);
@@ -42,7 +49,7 @@ impl Derivation<'_> {
                 unbalance(model, p, verdict)
             }),
             part: part.and_then(|p| deciding(model, &p.rates)),
-            proof: claim.and(e.certificate.grade()),
+            proof: proven.as_ref().and_then(|p| p.grade),
         };
         (answer, proven)
     }

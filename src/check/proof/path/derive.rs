@@ -123,7 +123,7 @@ fn status(
     end: &EndEvidence,
     natural: f64,
 ) -> (PathStatus, Option<f64>, Option<f64>) {
-    let claim = |p: &PathPoint| p.certificate.claim.filter(|_| p.certificate.grade().is_some());
+    let claim = |p: &PathPoint| p.proved;
     let good = |p: &&PathPoint| claim(p).is_some_and(|c| super::is_good(&c));
     let last = points.iter().take_while(good).last().map(|p| p.value);
     let whole = points.iter().all(|p| good(&p));
@@ -173,7 +173,7 @@ fn point(
         ),
     );
     let model = &displaced.model;
-    let proven = e.certificate.prove(&mut f, model);
+    let proven = e.certificate.prove(&mut f, model, d.known());
     let claim = proven.as_ref().and_then(|p| p.claim);
     let load_factor = match claim {
         Some(Claim::LoadFactor { value, .. } | Claim::DryLoadFactor { value }) => Some(value),
@@ -185,7 +185,7 @@ fn point(
         Some(_) => drive.is_push() && load_factor.is_some(),
     };
     require(&mut f, fits, "what is proved of it is what was asked");
-    let most = bound(&mut f, model, load_factor, (claim, e))?;
+    let most = bound(&mut f, (model, d.known()), load_factor, (claim, e))?;
     let moving: Vec<usize> = match drive {
         Drive::Settle(moves) => moves.0.iter().map(|m| m.support).collect(),
         Drive::Push { .. } => Vec::new(),
@@ -211,6 +211,7 @@ fn point(
         slips: slips(carried, &poses),
         poses: e.poses.clone(),
         certificate: e.certificate.clone(),
+        proved: claim,
         most,
     };
     Ok((told, poses))
@@ -219,7 +220,7 @@ fn point(
 /// A load factor with dry friction is at most its bound, and only such a one has a bound.
 fn bound(
     f: &mut Findings,
-    model: &Model,
+    (model, known): (&Model, bool),
     load_factor: Option<f64>,
     (claim, e): (Option<Claim>, &PointEvidence),
 ) -> Result<Option<f64>, String> {
@@ -227,7 +228,7 @@ fn bound(
     let Some(bound) = &e.bound else { return Ok(None) };
     let dry = matches!(claim, Some(Claim::DryLoadFactor { .. }));
     let mut own = Findings::default();
-    let proven = bound.prove(&mut own, model);
+    let proven = bound.prove(&mut own, model, known);
     f.grade = f.grade.and(own.grade);
     f.holds.extend(own.holds.into_iter().map(|t| format!("bound: {t}")));
     f.fails.extend(own.fails.into_iter().map(|t| format!("bound: {t}")));
