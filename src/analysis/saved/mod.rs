@@ -1,5 +1,5 @@
 //! Answers that were found and proved, as the files that are saved of them: the evidence is written
-//! down here, and what is told of it is derived ([`check::proof::derive`]), as it is by who checks.
+//! down here, and what is told of it is derived ([`check::proof::derive()`]), as it is by who checks.
 
 mod derived;
 mod evidence;
