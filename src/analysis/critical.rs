@@ -16,7 +16,7 @@ use base::{
     tolerance,
 };
 pub use check::terms::Method;
-use check::verdict::Verdict;
+use check::{question::CriticalOptions, verdict::Verdict};
 use model::interface::prepare_until;
 use scene::Scene;
 
@@ -29,8 +29,8 @@ pub struct Range {
     pub from: f64,
     /// The other end.
     pub to: f64,
-    /// Values scanned, both ends among them; [`SCAN`] where nothing is said, or every whole number
-    /// up to [`WHOLE`] of them.
+    /// Values scanned, both ends among them; [`SCAN`](check::question::SCAN) where nothing is said, or every whole number
+    /// up to [`WHOLE`](check::question::WHOLE) of them.
     pub scan: Option<usize>,
 }
 
@@ -219,28 +219,22 @@ fn probe_until(
 
 /// A count takes whole numbers only.
 fn is_whole(scene: &Scene, range: &Range) -> bool {
-    let readable = |v: f64| scene.with_field(&range.pointer, v).is_ok();
-    let low = range.from.min(range.to);
-    let whole = [low.ceil(), low.floor(), range.from.max(range.to).floor()];
-    !readable(low.floor() + 0.5) && !readable(low.ceil() + 0.5) && whole.into_iter().any(readable)
+    range.options().is_whole(scene)
 }
 
-/// Values scanned where nothing is said. Fewer: more flips stay unseen. More: time.
-pub const SCAN: usize = 33;
-/// Whole numbers scanned where nothing is said.
-pub const WHOLE: usize = 1000;
-
 fn values(range: &Range, whole: bool) -> Vec<f64> {
-    let every = ((range.to - range.from).abs() + 1.0).min(WHOLE as f64) as usize;
-    let last = range.scan.unwrap_or(if whole { every } else { SCAN }).max(2) - 1;
-    // Exact at both ends, symmetric between them.
-    let at = |k: usize| (range.from * (last - k) as f64 + range.to * k as f64) / last as f64;
-    let mut values: Vec<f64> = (0..=last).map(at).collect();
-    if whole {
-        values.iter_mut().for_each(|v| *v = v.round());
-        values.dedup();
+    range.options().values(whole)
+}
+
+impl Range {
+    fn options(&self) -> CriticalOptions {
+        CriticalOptions {
+            law: Law::default(),
+            vary: self.pointer.clone(),
+            between: [self.from, self.to],
+            scan: self.scan,
+        }
     }
-    values
 }
 
 type Narrowed = (f64, Method, Probe, Probe);

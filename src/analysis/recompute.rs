@@ -1,11 +1,12 @@
 //! What a check computes again, with the solvers and the engine of this build.
 
 use crate::{
-    Answer, Control, Question, Watch, ask, ask_watched, assess, closing, coulomb, critical::probe,
-    saved, stages,
+    Answer, Control, Question, StateOptions, Watch, ask, ask_watched, assess, closing, coulomb,
+    critical::probe, saved, stages,
 };
 use base::error::InputError;
 use check::{
+    elastic::PathEnd,
     proof::{
         self, Saved, recompute::Recompute, rocking::RockingAnswer, shaken::ShakenAnswer,
         simulation::Seen, verify::Verified,
@@ -79,7 +80,18 @@ impl Recompute for Solvers {
         let control = Control::default();
         let beside = said.motion.is_some() || said.forces.is_some();
         let assessment = beside.then(|| assess(model, &control));
-        match ask(&Question::Simulate(said.asked.clone()), scene, model, &control) {
+        // What takes longer than it is said to have taken is not the same; each run is heard of once before its first step.
+        let most =
+            said.runs.iter().fold(0_usize, |sum, r| sum.saturating_add(r.steps).saturating_add(1));
+        let mut heard = 0;
+        let mut each = |_: &Progress| {
+            heard += 1;
+            if heard > most { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        let watch =
+            Watch { threads: 1, frames: 0, keep_frames: false, every_step: true, each: &mut each };
+        let question = Question::Simulate(said.asked.clone());
+        match ask_watched(&question, scene, model, &control, watch) {
             Ok(Answer::Simulate(outcome)) => {
                 Some(Ok(saved::seen(model, &said.asked, assessment.as_ref(), &outcome)))
             }
@@ -120,6 +132,23 @@ impl Recompute for Solvers {
         let question = Question::Shake(said.asked.clone());
         match ask_watched(&question, scene, model, &Control::default(), watch) {
             Ok(Answer::Shake(s)) => Some(Ok(saved::shaken_answer(model, &s))),
+            Ok(_) => None,
+            Err(e) => Some(Err(e)),
+        }
+    }
+
+    fn stated(
+        &self,
+        options: &StateOptions,
+        scene: &Scene,
+        model: &Model,
+    ) -> Option<Result<(PathEnd, f64), InputError>> {
+        let question = Question::State(options.clone());
+        match ask(&question, scene, model, &Control::default()) {
+            Ok(Answer::State(s)) => {
+                let last = s.track.as_ref().and_then(|t| t.steps.last()).map(|s| s.load_factor);
+                Some(Ok((s.end, last.unwrap_or(0.0))))
+            }
             Ok(_) => None,
             Err(e) => Some(Err(e)),
         }

@@ -35,6 +35,12 @@ fn scaled(v: &Value, by: f64) -> Value {
     json!(v.as_f64().expect("a number") * by)
 }
 
+fn without_the_second(list: &Value) -> Value {
+    let mut list = list.as_array().expect("a list").clone();
+    list.remove(1);
+    json!(list)
+}
+
 #[test]
 fn what_is_proved_needs_no_solver() {
     for (name, text) in [("falls", FALLS), ("column", COLUMN), ("prestress", PRESTRESS)] {
@@ -79,6 +85,13 @@ fn forged_results_are_refused() {
         edited(TILT, "/answer/tilt_deg/value", |v| scaled(v, 1.1)),
         edited(THRUST, "/answer/thrust/least/value", |v| scaled(v, 0.9)),
         edited(CRITICAL, "/answer/critical/0/value", |v| scaled(v, 1.1)),
+        // Values nobody looked at, in evidence and answer alike.
+        edited(
+            &edited(CRITICAL, "/evidence/critical/scan", without_the_second),
+            "/answer/search/scan",
+            without_the_second,
+        ),
+        edited(CRITICAL, "/question/critical/scan", |_| json!(33)),
     ];
     for (k, text) in forged.iter().enumerate() {
         let v = checked(text);

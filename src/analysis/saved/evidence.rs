@@ -161,7 +161,6 @@ fn critical(c: &Critical) -> CriticalEvidence {
         ScanPoint { value: s.value, verdict: known.map(|k| k.0), unbalance: known.map(|k| k.1) }
     });
     CriticalEvidence {
-        whole: c.whole,
         scan: scan.collect(),
         flips: c.changes.iter().map(flip).collect(),
         ends: c.ends.iter().map(side).collect(),

@@ -166,9 +166,6 @@ pub struct TiltEvidence {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CriticalEvidence {
-    /// Whether the number is a count.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub whole: bool,
     /// The scan: computed.
     pub scan: Vec<ScanPoint>,
     /// Both sides of every flip.

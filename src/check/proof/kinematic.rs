@@ -254,6 +254,11 @@ pub(super) fn derive(
     let (mut curve, mut tied) = (None, None);
     if let Answer::Kinematic(answer) = &mut worst.direction.answer {
         let drive = e.control.as_ref().map(|c| drive(&worst.quake, c)).transpose()?;
+        let asked = o.control.as_ref().map(|c| (&c.block, c.point));
+        let here = e.control.as_ref().map(|c| (&c.block, c.point));
+        if asked.is_some() && here.is_some() && asked != here {
+            return Err("the control point is not the one that was asked for".into());
+        }
         answer.control.clone_from(&e.control);
         let bare = without_members(&worst.quake.model);
         let under = &worst.quake.model;

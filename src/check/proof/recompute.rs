@@ -2,7 +2,8 @@
 
 use super::{rocking::RockingAnswer, shaken::ShakenAnswer, simulation::Seen};
 use crate::{
-    question::Question,
+    elastic::PathEnd,
+    question::{Question, StateOptions},
     rocking::RockOptions,
     terms::{ClosedAnswer, Law, Order, StateMotion},
     verdict::Verdict,
@@ -81,6 +82,16 @@ pub trait Recompute {
         _scene: &Scene,
         _model: &Model,
     ) -> Option<Result<ShakenAnswer, InputError>> {
+        None
+    }
+
+    /// How the path of states along the live load ends, and at which load factor, followed again.
+    fn stated(
+        &self,
+        _options: &StateOptions,
+        _scene: &Scene,
+        _model: &Model,
+    ) -> Option<Result<(PathEnd, f64), InputError>> {
         None
     }
 

@@ -5,7 +5,7 @@
 use super::{
     answer::{Answer, FactorStatus, LimitAnswer, LoadFactorAnswer, TiltAnswer},
     certificate::{Certificate, Proven},
-    derive::{At, Derivation, failure, require},
+    derive::{At, Derivation, failure, motion, require},
     evidence::{HeldEvidence, StageEvidence, StagesEvidence},
     told::Told,
 };
@@ -363,6 +363,13 @@ fn complete(d: &Derivation, f: &mut Findings, o: &StagesOptions, order: &Order) 
     let all = order.placed.is_empty() || order.placed.len() == free;
     require(f, all, format!("every free block is placed, {free} of them"));
     require(f, order.given != o.order.is_empty(), "the order is given where it is");
+    if order.given && !order.placed.is_empty() {
+        let path = base::error::JsonPath::root();
+        let asked = assembly::named_blocks(&o.order, d.scene, &d.model.assembly, &path);
+        let same = asked
+            .is_ok_and(|list| d.model.ids(&list).iter().eq(order.placed.iter().map(|p| &p.block)));
+        require(f, same, "the order is the one that was given");
+    }
     let least = order.least_held;
     f.computed = true;
     if least == 0 || !f.fails.is_empty() || !d.asks_again() {
@@ -387,9 +394,10 @@ fn stage(
     let name = &stage.name;
     let mut f = Findings::default();
     let (answer, proven) = d.verdict(&mut f, model, &e.standing);
-    let stands = answer.verdict == Verdict::Stable;
+    let said = answer.verdict;
+    let stands = said == Verdict::Stable;
     let mut verdict = Told::new(model, Answer::Verdict(answer), &e.standing.certificate);
-    verdict.motion = e.standing.state;
+    verdict.motion = motion(&e.standing, said);
     verdict.in_words(model, proven.as_ref());
     d.part(name.clone(), f);
     let asks_margin = stands && !o.skip_margin && !o.remove_each && !o.has_order();

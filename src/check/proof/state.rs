@@ -4,7 +4,7 @@
 use super::{
     answer::{Answer, LimitAnswer},
     certificate::Certificate,
-    derive::{At, Derivation, require},
+    derive::{At, Derivation, computed, require},
     evidence::{StateEvidence, StepEvidence},
     member::{MemberLine, lines},
     told::{Direction, Told},
@@ -424,6 +424,7 @@ pub(super) fn derive(
     let limit = bound.as_ref().and_then(|b| b.answer.bound()).copied();
     let mut f = Findings::default();
     path(&mut f, (e, o), &track, limit);
+    ends_again(d, &mut f, (e, o), &track);
     f.computed |= track.steps.len() > 1;
     d.part("path", f);
     let answer = Given {
@@ -518,10 +519,40 @@ fn path(
         "there is a path where there is a bound",
     );
     let Some(bound) = bound else { return };
+    let fits = match e.end {
+        PathEnd::Bound => bound.status == Outcome::Found,
+        PathEnd::Unbounded => bound.status == Outcome::Unbounded,
+        PathEnd::None | PathEnd::NoBalance | PathEnd::Open => true,
+    };
+    require(f, fits, "it ends as its bound lets it");
     let Some(top) = bound.upper.filter(|_| bound.status == Outcome::Found) else { return };
     require(f, last <= top, format!("the path ends at {last}, not above the bound {top}"));
     if e.end == PathEnd::Bound {
         let near = bound.value.is_some_and(|v| last >= (1.0 - 2e-3) * v);
         require(f, near, "it ends a thousandth below the bound");
+    }
+}
+
+/// That no displacements balance more, or that it was followed far without a bound, is computed: the
+/// path is followed again.
+fn ends_again(
+    d: &Derivation,
+    f: &mut Findings,
+    (e, o): (&StateEvidence, &StateOptions),
+    track: &Track,
+) {
+    let told = matches!(e.end, PathEnd::NoBalance | PathEnd::Unbounded);
+    if !told || !d.asks_again() || !f.fails.is_empty() {
+        return;
+    }
+    let last = track.steps[track.steps.len() - 1].load_factor;
+    let text = format!("the path ends at {last}");
+    match d.again.stated(o, d.scene, d.model) {
+        Some(Err(e)) => f.fails.push(format!("the scene has no such path: {e}")),
+        Some(Ok((end, there))) => {
+            let same = end == e.end && (there - last).abs() <= 1e-6 * last.abs().max(there.abs());
+            computed(f, Some(same), text);
+        }
+        None => computed(f, None, text),
     }
 }

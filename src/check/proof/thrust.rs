@@ -5,7 +5,7 @@ use super::{
     answer::Answer,
     certificate::Certificate,
     critical::{Side, side},
-    derive::{Derivation, failure, require},
+    derive::{Derivation, failure, motion, require},
     evidence::ThrustEvidence,
     told::{Direction, Told},
 };
@@ -20,7 +20,7 @@ use crate::{
     },
 };
 use base::tolerance;
-use model::interface::Model;
+use model::{interface::Model, strength::laws::are_dry};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::sync::Arc;
@@ -126,10 +126,10 @@ impl From<&SectionForce> for Line {
 
 /// The factor that shrunk sections prove: a value only where the two sides are near each other.
 fn factor(shrunk: &[Side], value: Option<f64>) -> Option<Factor> {
-    let proved = |s: &&Side| s.verdict().is_some();
+    let is = |s: &&Side, verdict| s.verdict() == Some(verdict);
     let (lower, upper) = (
-        1.0 / shrunk.first().filter(proved)?.value,
-        shrunk.get(1).filter(proved).map(|s| 1.0 / s.value),
+        1.0 / shrunk.first().filter(|s| is(s, Verdict::Stable))?.value,
+        shrunk.get(1).filter(|s| is(s, Verdict::Unstable)).map(|s| 1.0 / s.value),
     );
     let is_known = |v: &f64| {
         upper
@@ -164,11 +164,12 @@ pub(super) fn derive(
     let Some([least, greatest]) = &e.ends else {
         let mut f = Findings::default();
         let (answer, proven) = d.verdict(&mut f, d.model, &e.standing);
-        d.check.claimed = answer.verdict != Verdict::Undecided;
+        let verdict = answer.verdict;
+        d.check.claimed = verdict != Verdict::Undecided;
         d.part("answer", f);
         let mut told = Told::new(d.model, Answer::Verdict(answer), &e.standing.certificate);
         told.in_words(d.model, proven.as_ref());
-        told.motion = e.standing.state;
+        told.motion = motion(&e.standing, verdict);
         return Ok(told);
     };
     let at = place(d.model, o)?;
@@ -195,6 +196,8 @@ pub(super) fn derive(
         }
         _ => false,
     };
+    let dry = shrunk.is_empty() || are_dry(&d.model.interfaces);
+    require(&mut f, dry, "sections are shrunk where joints have neither strengths nor water");
     require(&mut f, order, "the geometric safety factor lies between those of the shrunk sections");
     d.part("answer", f);
     let (support, direction, member) = match at {

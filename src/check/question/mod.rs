@@ -1,11 +1,13 @@
 //! What can be asked: one type for verbs, plans, result files and the library, checked where it is
 //! made ([`Question::check`]).
 
+mod critical;
 mod directions;
 mod settle;
 mod stages;
 mod state;
 
+pub use critical::{SCAN, WHOLE};
 pub use directions::{DIRECTIONS, directions, spread};
 pub use settle::{SettleOptions, SupportMove};
 pub use stages::{MOST_TRIES, StagesOptions};

@@ -4,7 +4,7 @@
 use super::{Derivation, computed};
 use crate::{
     proof::{answer::Answer, critical::CriticalResult, evidence::ClosedEvidence, told::Told},
-    question::Question,
+    question::{AssessOptions, Question},
     terms::{Bound, Closed, ClosedAnswer, ClosedEnd, Difference, LeftOutContacts},
     verdict::{Verdict, claim::Findings},
 };
@@ -32,7 +32,15 @@ impl Derivation<'_> {
                     .ok_or("the question is not one that is asked again with contacts closed")?;
                 f.computed = true;
                 if self.asks_again() {
-                    let here = self.again.closed(self.question, e.law, self.scene, self.model);
+                    // Where it does not stand, or one end was asked, whether it does was asked again.
+                    let verdict = match (self.question, &told.answer) {
+                        (Question::Thrust(o), Answer::Verdict(_)) => {
+                            Some(Question::Assess(AssessOptions { law: o.law }))
+                        }
+                        _ => None,
+                    };
+                    let question = verdict.as_ref().unwrap_or(self.question);
+                    let here = self.again.closed(question, e.law, self.scene, self.model);
                     let same = here.map(|here| {
                         here.is_some_and(|(law, answer)| {
                             law == e.law

@@ -76,6 +76,10 @@ impl Derivation<'_> {
         } else if falls {
             f.holds.push("the dead load alone is not held, as its own evidence says".into());
         }
+        if falls {
+            told.rests_at = None;
+            told.moves_at = e.moves_at.filter(|m| *m == 0.0);
+        }
         if f.fails.is_empty() && !falls {
             let order = [e.rests_at, e.value, e.moves_at].into_iter().flatten();
             let rising = order.collect::<Vec<f64>>().windows(2).all(|w| w[0] <= w[1]);

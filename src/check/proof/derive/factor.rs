@@ -80,7 +80,8 @@ impl Derivation<'_> {
                 Bound { lower, upper, ..none(Outcome::Undecided) }
             }
         };
-        let part = proven.as_ref().and_then(|p| deciding(model, &p.rates));
+        let moves = proven.as_ref().filter(|p| !matches!(p.claim, Some(Claim::Unbounded { .. })));
+        let part = moves.and_then(|p| deciding(model, &p.rates));
         self.part(title, f);
         let dry = e.dry.as_ref().map(|dry| {
             let title = match title {

@@ -13,7 +13,8 @@ pub(super) use part::deciding;
 use super::{
     critical,
     evidence::{
-        AssessEvidence, ClosedEvidence, Evidence, LimitEvidence, SimulateEvidence, TiltEvidence,
+        AssessEvidence, ClosedEvidence, Evidence, LimitEvidence, SimulateEvidence, Standing,
+        TiltEvidence,
     },
     kinematic, moving, path,
     recompute::Recompute,
@@ -24,7 +25,7 @@ use super::{
 use crate::{
     proof::answer::{Answer, LimitAnswer, SimulationAnswer, TiltAnswer},
     question::{LimitOptions, Question, SimulateOptions, TiltOptions, directions},
-    terms::{Fate, Found, Law},
+    terms::{Fate, Found, Law, StateMotion},
     verdict::{
         Verdict,
         claim::Findings,
@@ -127,7 +128,7 @@ pub fn derive(
 impl Derivation<'_> {
     fn told(&mut self, evidence: &Evidence) -> Result<Told, String> {
         match (self.question, evidence) {
-            (Question::Assess(_), Evidence::Assess(e)) => Ok(self.assess(e)),
+            (Question::Assess(_), Evidence::Assess(e)) => self.assess(e),
             (Question::Limit(o), Evidence::Limit(e)) => self.limit(o, e),
             (Question::Tilt(o), Evidence::Tilt(e)) => self.tilt(o, e),
             (Question::Simulate(o), Evidence::Simulate(e)) => self.simulate(o, e),
@@ -161,20 +162,23 @@ impl Derivation<'_> {
         !self.again.just_computed() && !self.check.refuted()
     }
 
-    fn assess(&mut self, e: &AssessEvidence) -> Told {
+    fn assess(&mut self, e: &AssessEvidence) -> Result<Told, String> {
         let mut f = Findings::default();
         let (answer, proven) = self.verdict(&mut f, self.model, &e.standing);
         let verdict = answer.verdict;
         self.part("answer", f);
         self.check.claimed = verdict != Verdict::Undecided;
         let mut told = Told::new(self.model, Answer::Verdict(answer), &e.standing.certificate);
-        told.motion = e.standing.state;
+        told.motion = motion(&e.standing, verdict);
         told.in_words(self.model, proven.as_ref());
         if let Some(seen) = &e.simulation {
+            if seen.asked != SimulateOptions::default() {
+                return Err("the simulation beside a verdict is run as `simulate` runs it".into());
+            }
             told.simulation = Some(seen.told(Some(verdict)));
             self.simulated(seen);
         }
-        told
+        Ok(told)
     }
 
     fn simulate(&mut self, o: &SimulateOptions, e: &SimulateEvidence) -> Result<Told, String> {
@@ -195,7 +199,7 @@ impl Derivation<'_> {
         let nothing = Default::default();
         let certificate = beside.as_ref().map_or(&nothing, |b| &b.2.certificate);
         let mut told = Told::new(self.model, answer, certificate);
-        told.motion = beside.as_ref().and_then(|b| b.2.state);
+        told.motion = beside.as_ref().and_then(|b| motion(b.2, b.0.verdict));
         told.in_words(self.model, beside.as_ref().and_then(|b| b.1.as_ref()));
         told.simulation = Some(simulation);
         self.simulated(&e.seen);
@@ -316,6 +320,15 @@ impl Derivation<'_> {
         }
         Some(told)
     }
+}
+
+/// What is told of the state under dry friction: where the verdict rests on it.
+pub(super) fn motion(e: &Standing, verdict: Verdict) -> Option<StateMotion> {
+    e.state.filter(|state| match state {
+        StateMotion::Rests => verdict == Verdict::Stable,
+        StateMotion::Moves => verdict == Verdict::Conditional,
+        StateMotion::Undecided => verdict == Verdict::Undecided,
+    })
 }
 
 impl Factor {

@@ -1,13 +1,17 @@
 //! The part of a scene that an answer is about.
 
-use crate::proof::{
-    certificate::Proven,
-    member::lines,
-    told::{MechanismWords, Told},
-};
 use crate::{
+    proof::{
+        certificate::Proven,
+        member::lines,
+        told::{MechanismWords, Told},
+    },
     terms::Deciding,
-    verdict::{Rate, mechanism},
+    verdict::{
+        Rate, certificate,
+        claim::{self, Claim, Findings},
+        mechanism,
+    },
 };
 use model::interface::{Model, parts};
 
@@ -24,9 +28,22 @@ impl Told {
     /// Adds the mechanism and the forces in the members of what was proved.
     pub(in crate::proof) fn in_words(&mut self, model: &Model, proven: Option<&Proven>) {
         let Some(proven) = proven else { return };
-        let moves = proven.claim.is_some() && proven.rates.iter().any(|q| *q != Rate::zero());
+        let proves = matches!(
+            proven.claim,
+            Some(
+                Claim::Unstable | Claim::Conditional | Claim::Impossible | Claim::LoadFactor { .. }
+            )
+        );
+        let moves = proves && proven.rates.iter().any(|q| *q != Rate::zero());
         self.mechanism =
             moves.then(|| MechanismWords::new(model, &mechanism::read(model, &proven.rates)));
-        self.members = lines(model, &proven.forces);
+        // Forces that prove nothing are told where they could be forces of the scene at all.
+        if !model.interfaces.members.is_empty() {
+            let mut f = Findings::default();
+            claim::cones(&mut f, "", model, &certificate::statics(model, &proven.forces, 0.0));
+            if f.fails.is_empty() {
+                self.members = lines(model, &proven.forces);
+            }
+        }
     }
 }

@@ -143,12 +143,8 @@ pub(super) fn held(f: &mut Findings, when: &str, assembly: &Assembly, left: &Lef
     }
 }
 
-pub(in crate::verdict) fn cones(
-    f: &mut Findings,
-    when: &str,
-    model: &Model,
-    s: &certificate::Residuals,
-) {
+/// Requires every force inside its friction cone, and no joint pressed beyond its compressive strength.
+pub fn cones(f: &mut Findings, when: &str, model: &Model, s: &certificate::Residuals) {
     f.require(
         s.cone_excess <= tolerance::CONE,
         format!(

@@ -211,10 +211,12 @@ pub fn ends(
         cones(&mut f, "", model, &s);
         s.unbalance <= tolerance::LOOSE_BALANCE && f.fails.is_empty()
     });
+    let assembly = &model.assembly;
+    let total: f64 = assembly.free().map(|i| certificate::load_scale(assembly, i)).sum();
     let upper = upper.filter(|upper| {
         let k = certificate::kinematics(model, rates, forces);
         let room = tolerance::LOAD_FACTOR_BEHIND * upper.abs();
-        let behind = k.excess * largest(forces);
+        let behind = k.excess * largest(forces).max(total);
         k.live_power > 0.0 && k.upper() <= upper + room && behind <= room * k.live_power
     });
     [lower, upper]

@@ -6,8 +6,8 @@ mod load_factor;
 mod motion;
 
 pub use super::findings::Findings;
-pub(super) use balance::{balanced, cones};
-pub use balance::{live_alone, natural_factor};
+pub(super) use balance::balanced;
+pub use balance::{cones, live_alone, natural_factor};
 pub use load_factor::{dry_map, dry_width, ends, upper_bound};
 pub use motion::moving;
 
