@@ -102,7 +102,7 @@ def test_saved_answers_are_proved_and_forged_ones_refused(tmp_path: Path) -> Non
     answer.save(file)
     proved = voussoir.check(file)
     assert isinstance(proved, voussoir.Verification)
-    assert proved and proved.proved and not proved.refuted and "holds" in str(proved)
+    assert proved and proved.confirmed and proved.grade != "refuted" and "holds" in str(proved)
     again = voussoir.load_answer(file)
     assert isinstance(again, voussoir.Assessment) and again.verdict is answer.verdict
     assert np.array_equal(again.forces, answer.forces)
@@ -111,9 +111,9 @@ def test_saved_answers_are_proved_and_forged_ones_refused(tmp_path: Path) -> Non
     certificate["forces"][0]["forces"][0][2] *= 1.5
     file.write_text(json.dumps(data))
     refused = voussoir.check(file)
-    assert isinstance(refused, voussoir.Verification) and refused.refuted and not refused
+    assert isinstance(refused, voussoir.Verification) and refused.grade == "refuted" and not refused
     other = voussoir.check(answer, table().box("more", (0.4, 0.4, 1), (0, 0, 1.5)))
-    assert isinstance(other, voussoir.Verification) and not other.proved
+    assert isinstance(other, voussoir.Verification) and not other.confirmed
 
 
 def test_mistakes_are_findings(structures: Path) -> None:

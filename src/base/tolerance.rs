@@ -457,6 +457,11 @@ pub const ON_THE_WAY: f64 = 1e-9;
 /// rounding.
 pub const AT_MIDDLE: f64 = 1e-6;
 
+/// Two points of a path are linked where no block turns by more than this between them, rad: beyond,
+/// the same points lie together in more than one way. Larger: a motion and one that passes elsewhere
+/// are taken for each other. Smaller: more points than a curve needs.
+pub const LONGEST_TURN: f64 = 0.5;
+
 /// A load factor smaller than this × the natural one (dead load over live load) has vanished. Larger: a curve ends
 /// early. Smaller: rounding of the last point is refused.
 pub const VANISHES: f64 = 1e-6;

@@ -145,6 +145,9 @@ pub fn happens(e: &PathEvent) -> String {
                 short(e.jump.unwrap_or(0.0))
             )
         }
+        PathEventKind::Falls if !e.yields.is_empty() => {
+            format!("it falls as {} carries no more", e.yields.join(", "))
+        }
         PathEventKind::Falls if e.opens.is_empty() && e.slides.is_empty() => {
             "no forces inside the friction cones balance it beyond: it falls".into()
         }

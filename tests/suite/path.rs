@@ -150,14 +150,13 @@ fn hinges_of_flatter_arches_jump() {
         (16, 120.0, 0.2, 0.1668102716, [["v00", "v01"], ["v14", "v15"]]),
     ] {
         let file = spread(&arch(n, t, embrace, json!({})), &[]);
-        let [event, fall] = &path(&file).events[..] else { panic!("{:?}", path(&file).events) };
-        close(event.value, way, 1e-7);
-        assert_eq!(event.opens, opens.map(|pair| pair.map(String::from)));
-        // The hinge jumps, the joint before closes; where that leads to nothing rests.
-        assert_eq!((event.kind, fall.kind), (PathEventKind::Jumps, PathEventKind::Falls));
-        assert!(event.closes.len() == 2 && event.jump.is_some_and(|way| way > 0.01));
-        assert_eq!(event.value, fall.value);
-        assert_ne!(event.opens, fall.opens);
+        let [fall] = &path(&file).events[..] else { panic!("{:?}", path(&file).events) };
+        close(fall.value, way, 1e-7);
+        // The hinge jumps, and where that leads to nothing rests.
+        assert_eq!(fall.kind, PathEventKind::Falls);
+        for pair in opens.map(|pair| pair.map(String::from)) {
+            assert!(fall.opens.contains(&pair), "{:?}", fall.opens);
+        }
         let said = file.answer.path().unwrap();
         assert_eq!(said.status, PathStatus::Falls);
         close(said.falls_at.unwrap(), way, 1e-7);
@@ -171,9 +170,8 @@ fn a_hinge_that_jumps_is_no_collapse() {
     let file = spread(&arch(30, 0.15, 120.0, json!({})), &[]);
     let p = path(&file);
     // The second jump leads nowhere: it falls.
-    let [jump, last, fall] = &p.events[..] else { panic!("{:?}", p.events) };
-    assert_eq!((jump.kind, last.kind), (PathEventKind::Jumps, PathEventKind::Jumps));
-    assert_eq!((fall.kind, fall.value), (PathEventKind::Falls, last.value));
+    let [jump, fall] = &p.events[..] else { panic!("{:?}", p.events) };
+    assert_eq!((jump.kind, fall.kind), (PathEventKind::Jumps, PathEventKind::Falls));
     close(jump.value, 0.10353114576057415, 1e-8);
     close(fall.value, 0.11384580641253933, 1e-8);
     assert_eq!(jump.opens, [["v01", "v02"], ["v27", "v28"]].map(|pair| pair.map(String::from)));
@@ -666,4 +664,78 @@ fn poses_on_the_way_stand_in_time_and_the_last_one_falls() {
         let fates = (fate(near), fate(&path(&file).ends[1]));
         assert_eq!(fates, (Fate::Stands, Fate::Falls), "{n} {thickness} {embrace}");
     }
+}
+
+/// Poses that each stand, or fall, or have a load factor, but that no motion leads to from the one
+/// before: the answer ends at the last that is linked, and nothing that a forger writes gets beyond.
+#[test]
+fn poses_that_no_motion_links_are_not_followed() {
+    let cube = |size: f64| cuboid("b", [size, size, size], [0.0, 0.0, 0.0]);
+    let ground = |x: f64, w: f64| fixed(cuboid("g", [w, 3.0, 1.0], [x, 0.0, -1.0]));
+    let pose = |block: &str, shift: [f64; 3], turn: [f64; 3]| json!({ "block": block, "shift": shift, "turn": turn });
+    let still = [0.0; 3];
+    let settled = |scene: &Scene, support: &str, way: [f64; 3]| {
+        let moves = vec![to(support, way)];
+        followed(scene, &Question::Settle(SettleOptions { moves, ..Default::default() }))
+    };
+    let open = |file: &ResultFile, kind: &str, forge: &dyn Fn(&mut Value), last: f64| {
+        let mut value = file.to_value().unwrap();
+        let mut evidence = value["evidence"][kind].take();
+        forge(&mut evidence);
+        value["evidence"][kind] = evidence;
+        crate::ask::told(&mut value);
+        let said = &value["answer"]["path"];
+        assert_eq!((said["status"].as_str(), said["value"].as_f64()), (Some("open"), Some(last)));
+    };
+
+    // A block on a table that goes along: it is to hang in the air, nine metres above.
+    let scene = scene(0.6, json!([ground(0.0, 3.0), cube(1.0)]), json!({}));
+    let file = settled(&scene, "g", [0.1, 0.0, -0.1]);
+    assert_eq!(file.answer.path().unwrap().status, PathStatus::Reached);
+    let in_the_air = |e: &mut Value| {
+        let mut falls = e["points"].as_array().unwrap().last().unwrap().clone();
+        let stands = falls.clone();
+        falls["poses"] =
+            json!([pose("g", [0.1, 0.0, -0.1], still), pose("b", [0.1, 0.0, 9.0], still)]);
+        falls["value"] = json!(1.0000001);
+        falls["certificate"] = json!({ "claim": "unstable", "forces": [],
+            "rates": [{ "block": "b", "velocity": [0, 0, -1], "spin": still }] });
+        e["end"] = json!("falls");
+        e["ends"] = json!([stands, falls]);
+    };
+    open(&file, "settle", &in_the_air, 1.0);
+
+    // It is to have slid along by half a metre on a table that sinks: nothing pushes it.
+    let aside = |e: &mut Value| {
+        let last = e["points"].as_array_mut().unwrap().last_mut().unwrap();
+        last["poses"] =
+            json!([pose("g", [0.1, 0.0, -0.1], still), pose("b", [0.6, 0.0, -0.1], still)]);
+        let corner = |x: f64, y: f64| json!([x + 0.6, y, -0.1]);
+        last["certificate"]["forces"] = json!([{ "between": ["g", "b"],
+            "points": [corner(-0.5, -0.5), corner(0.5, -0.5), corner(0.5, 0.5), corner(-0.5, 0.5)],
+            "forces": [[0, 0, 0.25], [0, 0, 0.25], [0, 0, 0.25], [0, 0, 0.25]] }]);
+    };
+    let before = path(&file).points.iter().rev().nth(1).unwrap().value;
+    open(&file, "settle", &aside, before);
+
+    // A slender block that rocks about its edge: its load factor is to vanish five metres farther.
+    let slender = json!([ground(0.0, 40.0), cuboid("b", [0.4, 1.0, 2.0], [0.0, 0.0, 0.0])]);
+    let scene = crate::ask::scene(0.7, slender, push([1.0, 0.0, 0.0]));
+    let control = ControlPoint { block: "b".into(), point: [0.0, 0.0, 1.0] };
+    let toward = [1.0, 0.0, 0.0];
+    let question =
+        Question::Push(PushOptions { control, toward, at: Vec::new(), from: Vec::new() });
+    let file = followed(&scene, &question);
+    assert_eq!(file.answer.path().unwrap().status, PathStatus::Vanishes);
+    let farther = |e: &mut Value| {
+        let last = e["points"].as_array_mut().unwrap().last_mut().unwrap();
+        let more = |v: &mut Value| *v = json!(v.as_f64().unwrap() + 5.0);
+        more(&mut last["value"]);
+        more(&mut last["poses"][0]["shift"][0]);
+        for own in last["certificate"]["forces"].as_array_mut().unwrap() {
+            own["points"].as_array_mut().unwrap().iter_mut().for_each(|p| more(&mut p[0]));
+        }
+    };
+    let points = &path(&file).points;
+    open(&file, "push", &farther, points[points.len() - 2].value);
 }

@@ -150,7 +150,7 @@ fn a_block_held_by_a_tie_tilts_as_its_base_moves_and_falls() {
     assert_eq!(said.status, PathStatus::Falls, "{said:?}");
     close(said.value.unwrap(), falls, 1e-7);
     let [event] = &path(&file).events[..] else { panic!("{:?}", path(&file).events) };
-    assert_eq!((event.kind, &event.yields[..]), (PathEventKind::Yields, &["tie".to_string()][..]));
+    assert_eq!((event.kind, &event.yields[..]), (PathEventKind::Falls, &["tie".to_string()][..]));
     // What it carries is part of the proof.
     let members = |v: &mut Value, members: &dyn Fn(&Value) -> Value| {
         let own = &mut v["evidence"]["settle"]["points"][2]["certificate"]["members"];

@@ -247,19 +247,20 @@ class Blocks:
 class Verification:
     """What the check of a saved answer found, from its scene alone."""
 
-    proved: bool
-    """Whether it claims something and every part holds."""
-    refuted: bool
-    """Whether any part fails."""
-    proof: Any
-    """How exactly: ``"exact"``, or ``{"to_rounding": number}``; ``None`` where nothing is proved."""
+    confirmed: bool
+    """Whether it claims something, every part holds, and nothing stayed open."""
+    grade: Any
+    """The weakest of what it rests on: ``"exact"``, ``{"to_rounding": number}``, ``"computed"`` (and
+    computed again), ``"unchecked"``, ``"refuted"``, ``"nothing"`` (nothing is claimed)."""
     parts: list[dict[str, Any]]
-    """``title``, ``fails``, ``holds`` of every part."""
+    """``title``, ``grade``, ``fails``, ``holds``, ``open`` of every part."""
+    answer: dict[str, Any] | None
+    """The answer as it follows from the evidence."""
     text: str
     """All of it, in words."""
 
     def __bool__(self) -> bool:
-        return self.proved
+        return self.confirmed
 
     def __str__(self) -> str:
         return self.text
@@ -469,7 +470,8 @@ class Answer:
 
 def _verification(told: tuple[dict[str, Any], str]) -> Verification:
     data, text = told
-    return Verification(data["proved"], data["refuted"], data.get("proof"), data["parts"], text)
+    keys = ("confirmed", "grade", "parts")
+    return Verification(*(data[key] for key in keys), data.get("answer"), text)
 
 
 def _write(path: str | os.PathLike[str], text: str) -> None:

@@ -54,6 +54,8 @@ pub(super) struct Rested {
     pub touch: Vec<(usize, Vec<Vector3<f64>>)>,
     /// Forces there.
     pub forces: Forces,
+    /// Others that prove that it stands, where these leave no room for a proof.
+    pub proving: Option<Forces>,
     /// How each joint touches, and whether it slid in the step that led here.
     pub joints: Vec<(JointChange, bool)>,
     /// How the blocks moved in that step, per unit of the parameter.
@@ -511,7 +513,9 @@ impl Tracker<'_> {
                 }
             }
         }
-        let forces = self.balanced(&found.model, forces, solved.load_factor)?;
+        repair::cut(&found.model.interfaces, &mut forces);
+        let proving = self.balanced(&found.model, &forces, solved.load_factor)?;
+        let proving = Some(proving).filter(|p| *p != forces);
         let joints = self.joints(&poses, |k| {
             let own = stage.spots.iter().enumerate().filter(|(_, (own, _))| *own == k);
             own.flat_map(|(c, _)| {
@@ -544,22 +548,21 @@ impl Tracker<'_> {
         let touch = found.from.iter().copied().zip(list.iter().map(|f| f.points.clone())).collect();
         let power = live_power(&found.model, &rates);
         let load_factor = solved.load_factor;
-        Some(Rested { value, poses, touch, forces, joints, rates, load_factor, power })
+        Some(Rested { value, poses, touch, forces, proving, joints, rates, load_factor, power })
     }
 
     /// These forces, balanced to what counts as balance; others that are, where that is no small
     /// change; nothing where there are none, for then it does not stand.
-    fn balanced(&self, model: &Model, mut forces: Forces, lambda: f64) -> Option<Forces> {
-        repair::cut(&model.interfaces, &mut forces);
-        let left = certificate::statics(model, &forces, lambda).unbalance;
+    fn balanced(&self, model: &Model, forces: &Forces, lambda: f64) -> Option<Forces> {
+        let left = certificate::statics(model, forces, lambda).unbalance;
         if self.drive.is_push() {
             // Its proof is that of its load factor, which finds its own forces.
-            return (left <= tolerance::DRY_BALANCE).then_some(forces);
+            return (left <= tolerance::DRY_BALANCE).then(|| forces.clone());
         }
         if left <= tolerance::UNBALANCE {
-            return Some(forces);
+            return Some(forces.clone());
         }
-        if let Some(better) = existence::improved(model, &forces, 0.0) {
+        if let Some(better) = existence::improved(model, forces, 0.0) {
             return Some(better);
         }
         let control =

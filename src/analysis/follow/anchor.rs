@@ -12,7 +12,7 @@
 use super::{
     advance::Rested,
     branch::{BranchPoint, Follow, ROOM, WIDTH},
-    point::{End, Event, EventKind, Path, Point},
+    point::{End, Event, Path, Point},
     program::{self, Hold},
     root::narrow,
     tracker::Tracker,
@@ -116,7 +116,6 @@ impl<'a> Anchor<'a> {
     /// A path from here as one from the first start.
     fn told(&self, carried: &Carried, own: Path, how: &Follow) -> Path {
         let joint = |k: usize| self.joint(carried, k);
-        let all = |list: Vec<usize>| list.into_iter().map(joint).collect();
         let value = |v: f64| {
             // To the last digit what was asked for.
             let v = self.value + v;
@@ -124,14 +123,7 @@ impl<'a> Anchor<'a> {
             asked.copied().find(|a| (a - v).abs() <= 4.0 * f64::EPSILON * v).unwrap_or(v)
         };
         let point = |p: Point| Point { value: value(p.value), ..self.point(carried, p) };
-        let event = |e: Event| Event {
-            value: value(e.value),
-            beyond: value(e.beyond),
-            opens: all(e.opens),
-            closes: all(e.closes),
-            slides: all(e.slides),
-            ..e
-        };
+        let event = |e: Event| Event { value: value(e.value), beyond: value(e.beyond) };
         Path {
             points: own.points.into_iter().map(point).collect(),
             events: own.events.into_iter().map(event).collect(),
@@ -198,27 +190,7 @@ impl Tracker<'_> {
             (value, turn)
         };
         let anchor = Anchor::new(self.carried, value, turn.poses);
-        let sticks: Vec<usize> = (0..here.joints.len()).filter(|k| here.joints[*k].1).collect();
-        let turns = |k: &usize| {
-            let kept = turn.closed.iter().zip(&anchor.here.from).filter(|(_, from)| *from == k);
-            let kept: usize = kept.map(|(own, _)| own.len()).sum();
-            kept < self.carried.spots(&anchor.poses, *k).len()
-        };
-        let opens: Vec<usize> = sticks.iter().copied().filter(turns).collect();
-        let event = |kind, opens, slides| Event {
-            value,
-            beyond: value,
-            kind,
-            opens,
-            closes: Vec::new(),
-            jump: 0.0,
-            yields: Vec::new(),
-            slides,
-        };
-        path.events.push(event(EventKind::Sticks, Vec::new(), sticks));
-        if !opens.is_empty() {
-            path.events.push(event(EventKind::Opens, opens, Vec::new()));
-        }
+        path.events.push(Event { value, beyond: value });
         let begin = |tracker: &Tracker, how: &Follow, state: BranchPoint, path: &mut Path| {
             tracker.run(how, BranchPoint { closed: turn.closed, ..state }, path)
         };

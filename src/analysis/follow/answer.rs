@@ -66,14 +66,15 @@ pub struct PointProof {
     pub findings: Findings,
     /// Of a load factor with dry friction: what bounds it from above.
     pub bound: Option<Box<PointProof>>,
+    /// The forces that the motion has there, where those that prove it are others.
+    pub motion: Option<Forces>,
 }
 
 /// A path that was followed before, and who hears of what comes.
 pub struct GoesOn<'a> {
     /// The last pose that is known; none: the start.
     pub from: &'a [SavedPose],
-    /// Hears of points with their proofs as they are found, of each once, with the events up to
-    /// there. What it has heard of last is a pose from which the path goes on as it would have.
+    /// Hears of points with their proofs as they are found, of each once. What it has heard of last is a pose from which the path goes on as it would have.
     pub hears: &'a mut dyn FnMut(&Followed),
 }
 
@@ -282,13 +283,11 @@ fn answer(
         let mut new = path();
         let between = new.between.saturating_sub(heard.between);
         let points = new.points.split_off(heard.proofs.len().min(new.points.len()));
-        let events = new.events.split_off(heard.events.min(new.events.len()));
         let proofs: Vec<PointProof> = points.iter().map(prove).collect();
-        heard.events += events.len();
         heard.between += between;
         heard.proofs.extend(points.iter().map(|p| p.value).zip(proofs.clone()));
         let least = least(&new).filter(|_| heard.proofs.len() == proofs.len());
-        let path = Path { points, events, between, ..new };
+        let path = Path { points, between, ..new };
         let drive = how.drive.clone();
         (goes_on.hears)(&Followed { drive, path, proofs, ends: Vec::new(), least });
     };
@@ -331,7 +330,6 @@ fn answer(
 struct Heard {
     /// Of each point its parameter and what proves it.
     proofs: Vec<(f64, PointProof)>,
-    events: usize,
     between: usize,
 }
 
@@ -354,8 +352,11 @@ fn proof(carried: &Carried, how: &Follow, point: &Point, control: &Control) -> P
         };
     }
     if let Some(touch) = &point.touch {
-        let forces = slid_forces(carried, &found, point, touch);
-        return stands_or_falls(model, forces, &point.rates, control);
+        let at = |forces: &Forces| slid_forces(carried, &found, forces, touch);
+        let motion = point.proving.as_ref().and_then(|_| balanced(model, at(&point.forces)));
+        let proving = at(point.proving.as_ref().unwrap_or(&point.forces));
+        let proof = stands_or_falls(model, proving, &point.rates, control);
+        return PointProof { motion: motion.or(proof.motion), ..proof };
     }
     let forces = carried_forces(carried, &found, point, &poses);
     stands_or_falls(model, forces, &point.rates, control)
@@ -416,6 +417,13 @@ fn linkage_proof(
     proof.claim.is_some().then_some(proof)
 }
 
+/// Forces of a motion, where they are ones: without members, and balanced as dry friction leaves it.
+fn balanced(model: &Model, forces: Forces) -> Option<Forces> {
+    let left = || certificate::statics(model, &forces, 0.0).unbalance;
+    let are = model.interfaces.members.is_empty() && left() <= tolerance::DRY_BALANCE;
+    are.then_some(forces)
+}
+
 /// Proves that a displaced scene stands with these forces, or falls by these rates.
 fn stands_or_falls(model: &Model, forces: Forces, rates: &[Rate], control: &Control) -> PointProof {
     let rest = || vec![Rate::zero(); model.assembly.blocks.len()];
@@ -428,13 +436,14 @@ fn stands_or_falls(model: &Model, forces: Forces, rates: &[Rate], control: &Cont
         if stands.claim.is_some() {
             return stands;
         }
+        let motion = balanced(model, forces.clone());
         if let Some(better) = existence::improved(model, &forces, 0.0) {
-            return proved(Claim::Stable, better, rest());
+            return PointProof { motion, ..proved(Claim::Stable, better, rest()) };
         }
         // The least forces leave no room to improve them; others do.
         let any = assess(model, &Control { law: Law::Associative, ..*control });
         if any.verdict == Verdict::Stable {
-            return proved(Claim::Stable, any.forces.clone(), rest());
+            return PointProof { motion, ..proved(Claim::Stable, any.forces.clone(), rest()) };
         }
         stands
     };
@@ -461,7 +470,7 @@ fn dry_proof(
     if bound.claim().is_some() && bound.value.is_some_and(|b| (b - value).abs() <= width) {
         return PointProof::of(model, bound);
     }
-    let forces = slid_forces(carried, found, point, touch);
+    let forces = slid_forces(carried, found, &point.forces, touch);
     let own =
         Side { claim: Some(Claim::DryLoadFactor { value }), forces, rates: point.rates.clone() };
     let proved = Proved::new(model, own);
@@ -481,10 +490,10 @@ fn dry_proof(
 type Touch = [(usize, Vec<Vector3<f64>>)];
 
 /// The forces of a point after sliding at the contacts that its poses have.
-fn slid_forces(carried: &Carried, found: &Displaced, point: &Point, touch: &Touch) -> Forces {
+fn slid_forces(carried: &Carried, found: &Displaced, own: &Forces, touch: &Touch) -> Forces {
     let list = &found.model.interfaces.list;
     let mut forces = check::verdict::no_forces(&found.model.interfaces);
-    for ((k, places), given) in touch.iter().zip(&point.forces) {
+    for ((k, places), given) in touch.iter().zip(own) {
         for (at, w) in places.iter().zip(given) {
             let near = (0..list.len())
                 .filter(|&c| found.from[c] == *k)
@@ -509,6 +518,7 @@ impl PointProof {
             rates: rates.to_vec(),
             findings: proved.findings().clone(),
             bound: None,
+            motion: None,
         }
     }
 }

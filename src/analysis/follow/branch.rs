@@ -1,10 +1,10 @@
 //! One linkage after the other, from event to event.
 
 use super::{
-    drop::{self, Landing, Turn},
+    drop::{self, Landing},
     linkage::Linkage,
-    passed::Passed,
-    point::{End, Event, EventKind, Path, Point},
+    passed::{Passed, turned_far},
+    point::{End, Event, Path, Point},
     program::{self, Hold, Margin},
     root::narrow,
     tracker::{At, Tracker, size},
@@ -158,6 +158,7 @@ impl Tracker<'_> {
                     closed: state.closed.clone(),
                     load_factor: 0.0,
                     forces: forces.clone(),
+                    proving: None,
                     room: 0.0,
                     rates: Vec::new(),
                     touch: None,
@@ -309,6 +310,7 @@ impl Tracker<'_> {
                 path.between -= 1;
                 (self.hears)(&|| path.clone());
             }
+            let wanted = wanted || turned_far(path, &there.1.at.place.poses);
             if wanted || (!how.drive.is_push() && value == aim) {
                 path.points.extend(point(&there));
                 passed = Passed::new(value, load_factor);
@@ -388,17 +390,8 @@ impl Tracker<'_> {
             return self.changes(how, linkage, (low.0, low.2), (beyond.0, beyond.2), closed, path);
         }
         let Some((low, beyond)) = closing else { return Err(stuck("an event was lost")) };
-        let (now, closes) = self.with_closed(&low.2.place.poses, closed)?;
-        path.events.push(Event {
-            value: low.0,
-            beyond: beyond.0,
-            kind: EventKind::Closes,
-            opens: Vec::new(),
-            closes,
-            jump: 0.0,
-            yields: Vec::new(),
-            slides: Vec::new(),
-        });
+        let now = self.with_closed(&low.2.place.poses, closed)?;
+        path.events.push(Event { value: low.0, beyond: beyond.0 });
         if let Some(m) = self.margin(&low.2.place.poses, closed, &linkage.holds) {
             path.points.push(self.point(low.0, (linkage, &low.2), closed, &m));
         }
@@ -431,44 +424,22 @@ impl Tracker<'_> {
             });
         }
         let mut now = closed.to_vec();
-        let mut opens: Vec<usize> = lost.iter().map(|l| l.0).collect();
-        opens.dedup();
         for &(k, p) in &lost {
             now[k].retain(|&q| q != p);
         }
-        let event = |kind, opens, closes, jump| Event {
-            value: low.0,
-            beyond: beyond.0,
-            kind,
-            opens,
-            closes,
-            jump,
-            yields: Vec::new(),
-            slides: Vec::new(),
-        };
+        path.events.push(Event { value: low.0, beyond: beyond.0 });
         let holds = old.holds.clone();
         match drop::drop(self, &now, &holds, &lost, &beyond.1.at.place, beyond.0) {
             Landing::Steady(closed) => {
-                path.events.push(event(EventKind::Opens, opens, Vec::new(), 0.0));
                 // Straight on: a program at this very pose would not tell this branch from others.
                 let state =
                     BranchPoint { value: beyond.0, poses: beyond.1.at.place.poses, closed, holds };
                 self.run(how, state, path)
             }
-            Landing::Elsewhere { poses, closed, closes, jump } => {
-                path.events.push(event(EventKind::Jumps, opens, closes, jump));
+            Landing::Elsewhere { poses, closed } => {
                 Ok(BranchPoint { value: beyond.0, poses, closed, holds })
             }
-            Landing::Nowhere(turn) => {
-                let opens = match turn {
-                    // The hinge jumps first; where it has come to there is nothing that rests.
-                    Some(Turn { closes, opens: next, jump }) => {
-                        path.events.push(event(EventKind::Jumps, opens, closes, jump));
-                        next
-                    }
-                    None => opens,
-                };
-                path.events.push(event(EventKind::Falls, opens, Vec::new(), 0.0));
+            Landing::Nowhere => {
                 let end = self.falls(old, &low, closed);
                 Err(end.unwrap_or_else(|| stuck("it falls, but no proof of it was found")))
             }
@@ -488,19 +459,12 @@ impl Tracker<'_> {
         path: &mut Path,
     ) -> End {
         let end = self.slides(&beyond.1, closed);
-        let End::Slides(joint) = end else { return end };
+        if !matches!(end, End::Slides(_)) {
+            return end;
+        }
         let fallen = if how.drive.is_push() { None } else { self.falls(old, &low, closed) };
         let Some(falls) = fallen else { return end };
-        path.events.push(Event {
-            value: low.0,
-            beyond: beyond.0,
-            kind: EventKind::Falls,
-            opens: Vec::new(),
-            closes: Vec::new(),
-            jump: 0.0,
-            yields: Vec::new(),
-            slides: vec![joint],
-        });
+        path.events.push(Event { value: low.0, beyond: beyond.0 });
         falls
     }
 
@@ -540,6 +504,7 @@ impl Tracker<'_> {
                     closed: closed.to_vec(),
                     load_factor: 0.0,
                     forces: verdict.forces.clone(),
+                    proving: None,
                     room: 0.0,
                     rates: verdict.rates.clone(),
                     touch: None,

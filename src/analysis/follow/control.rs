@@ -76,6 +76,7 @@ impl Tracker<'_> {
         Some(Rested {
             touch: touch(&stage),
             forces: solved.forces,
+            proving: None,
             load_factor: solved.load_factor,
             power: live_power(&stage.model, &rates),
             rates,

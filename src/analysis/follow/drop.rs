@@ -21,25 +21,11 @@ pub(super) enum Landing {
         poses: Vec<Pose>,
         /// Closed corners there.
         closed: Vec<Vec<usize>>,
-        /// Joints that closed on the way.
-        closes: Vec<usize>,
-        /// The longest way of a block, m.
-        jump: f64,
     },
-    /// Nowhere; where joints closed on the way down, what came first.
-    Nowhere(Option<Turn>),
+    /// Nowhere.
+    Nowhere,
     /// It could not be followed, and why.
     Lost(String),
-}
-
-/// Joints that close on a way down that ends nowhere, and those that open there.
-pub(super) struct Turn {
-    /// Joints that close.
-    pub closes: Vec<usize>,
-    /// Joints that open next.
-    pub opens: Vec<usize>,
-    /// The longest way of a block up to there, m.
-    pub jump: f64,
 }
 
 /// First and longest step of the opening, and the widest, over the size of the scene.
@@ -57,7 +43,7 @@ pub(super) fn drop(
     value: f64,
 ) -> Landing {
     let together = step_down(t, closed, holds, lost, from, value, MOST);
-    if !matches!(together, Landing::Nowhere(_)) {
+    if !matches!(together, Landing::Nowhere) {
         return together;
     }
     // A scene that is its own image need not fall as one: the first joint alone may carry it to
@@ -123,13 +109,13 @@ fn step_down(
     let mut step = FIRST;
     loop {
         if here.0 >= WIDEST {
-            return Landing::Nowhere(None);
+            return Landing::Nowhere;
         }
         let gap = here.0 + step;
         let Some(there) = close(lost, &here.1, gap * t.size) else {
             step *= 0.25;
             if step < 1e-3 * FIRST {
-                return Landing::Nowhere(None);
+                return Landing::Nowhere;
             }
             continue;
         };
@@ -150,7 +136,7 @@ fn step_down(
             let Some([low, _]) = ends else {
                 return Landing::Lost("the place where a joint closes was not found".into());
             };
-            return landed(t, closed, holds, &from, &low.2, value, more);
+            return landed(t, closed, holds, &low.2, value, more);
         }
         let gain = power(&here.1, &there);
         if gain < 0.0 {
@@ -159,13 +145,10 @@ fn step_down(
                 return Landing::Lost("the equilibrium after a jump was not found".into());
             };
             return match t.margin(&at.place.poses, closed, holds) {
-                Some(m) if m.room >= -1e-9 => Landing::Elsewhere {
-                    jump: way(&from, &at.place),
-                    poses: at.place.poses,
-                    closed: closed.to_vec(),
-                    closes: Vec::new(),
-                },
-                _ => Landing::Nowhere(None),
+                Some(m) if m.room >= -1e-9 => {
+                    Landing::Elsewhere { poses: at.place.poses, closed: closed.to_vec() }
+                }
+                _ => Landing::Nowhere,
             };
         }
         here = (gap, there);
@@ -178,61 +161,39 @@ fn landed(
     t: &Tracker,
     closed: &[Vec<usize>],
     holds: &[Hold],
-    from: &Configuration,
     place: &Configuration,
     value: f64,
     more: usize,
 ) -> Landing {
-    let (now, closes) = match t.with_closed(&place.poses, closed) {
+    let now = match t.with_closed(&place.poses, closed) {
         Ok(found) => found,
         Err(End::Stuck(text)) => return Landing::Lost(text),
-        Err(_) => return Landing::Nowhere(None),
+        Err(_) => return Landing::Nowhere,
     };
     match t.margin(&place.poses, &now, holds) {
-        Some(m) if m.room >= -1e-9 => Landing::Elsewhere {
-            jump: way(from, place),
-            poses: place.poses.clone(),
-            closed: now,
-            closes,
-        },
+        Some(m) if m.room >= -1e-9 => {
+            Landing::Elsewhere { poses: place.poses.clone(), closed: now }
+        }
         Some(m) if more > 0 => {
             // Not yet: the next joint opens at once.
             let lost = t.lost(&place.poses, &now, &m);
             let mut open = now;
             lost.iter().for_each(|&(k, p)| open[k].retain(|&q| q != p));
             if lost.is_empty() {
-                return Landing::Nowhere(None);
+                return Landing::Nowhere;
             }
             match step_down(t, &open, holds, &lost, place, value, more - 1) {
-                Landing::Steady(closed) => Landing::Elsewhere {
-                    jump: way(from, place),
-                    poses: place.poses.clone(),
-                    closed,
-                    closes,
-                },
-                Landing::Elsewhere { poses, closed, closes: later, jump } => Landing::Elsewhere {
-                    poses,
-                    closed,
-                    closes: [closes, later].concat(),
-                    jump: jump + way(from, place),
-                },
-                Landing::Nowhere(_) => {
-                    let mut opens: Vec<usize> = lost.iter().map(|l| l.0).collect();
-                    opens.dedup();
-                    Landing::Nowhere(Some(Turn { closes, opens, jump: way(from, place) }))
+                Landing::Steady(closed) => {
+                    Landing::Elsewhere { poses: place.poses.clone(), closed }
                 }
-                lost @ Landing::Lost(_) => lost,
+                other => other,
             }
         }
-        Some(_) => Landing::Nowhere(None),
+        Some(_) => Landing::Nowhere,
         // Nothing balances it there, whatever the room: it goes on.
-        None if t.falls_there(&place.poses, &now) => Landing::Nowhere(None),
+        None if t.falls_there(&place.poses, &now) => Landing::Nowhere,
         None => Landing::Lost("no forces were found after a jump".into()),
     }
-}
-
-fn way(a: &Configuration, b: &Configuration) -> f64 {
-    a.poses.iter().zip(&b.poses).map(|(a, b)| (a.shift - b.shift).norm()).fold(0.0, f64::max)
 }
 
 /// Power of the loads on the way from one place to the next; with a free load factor at what holds

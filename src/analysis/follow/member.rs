@@ -3,7 +3,7 @@
 use super::{
     branch::{BranchPoint, Follow, ROOM, Trial, WIDTH},
     linkage::{Configuration, Linkage},
-    point::{End, Event, EventKind, Path},
+    point::{End, Event, Path},
     program::{self, Hold},
     root::narrow,
     tracker::{Tracker, pin},
@@ -100,16 +100,7 @@ impl Tracker<'_> {
         if let Some(m) = &margin {
             path.points.push(self.point(low.0, (linkage, &at), closed, m));
         }
-        path.events.push(Event {
-            value: low.0,
-            beyond: beyond.0,
-            kind: EventKind::Yields,
-            opens: Vec::new(),
-            closes: Vec::new(),
-            jump: 0.0,
-            yields: vec![member],
-            slides: Vec::new(),
-        });
+        path.events.push(Event { value: low.0, beyond: beyond.0 });
         let mut holds = linkage.holds.clone();
         holds[member] = Hold::Yields(bound);
         // Does it yield the way it is pulled, as the parameter grows?

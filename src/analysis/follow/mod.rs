@@ -20,4 +20,4 @@ mod slide;
 mod tracker;
 
 pub use branch::Follow;
-pub use point::{End, Event, EventKind, Path, Point};
+pub use point::{End, Event, Path, Point};

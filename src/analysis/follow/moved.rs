@@ -1,7 +1,7 @@
 //! The part of a scene that moves. What nothing that moves touches stays where it is, and none of
 //! its quantities bears on how the rest is followed: not its weight, its size, nor its place.
 
-use super::point::{End, Event, Path, Point};
+use super::point::{End, Path, Point};
 use crate::{Control, assess, limit};
 use check::{
     path::{Carried, Drive, Move, Moves},
@@ -113,13 +113,6 @@ impl<'a> Moved<'a> {
             End::Slides(k) => End::Slides(self.faces[k]),
             other => other,
         };
-        let event = |e: Event| Event {
-            opens: e.opens.iter().map(|&k| self.faces[k]).collect(),
-            closes: e.closes.iter().map(|&k| self.faces[k]).collect(),
-            yields: e.yields.iter().map(|&m| self.members[m]).collect(),
-            slides: e.slides.iter().map(|&k| self.faces[k]).collect(),
-            ..e
-        };
         let first = own.first.map(|(forces, rates)| {
             let mut all = self.still.clone();
             let first = self.whole.interfaces.list.len();
@@ -130,7 +123,7 @@ impl<'a> Moved<'a> {
         });
         Path {
             points: own.points.into_iter().map(|p| self.point(p)).collect(),
-            events: own.events.into_iter().map(event).collect(),
+            events: own.events,
             end,
             first,
             between: own.between,
@@ -177,26 +170,34 @@ impl<'a> Moved<'a> {
         touch: Vec<(usize, Vec<Vector3<f64>>)>,
     ) -> Point {
         let list = &self.whole.interfaces.list;
-        let (mut all, mut forces) = (Vec::new(), Vec::new());
+        let mut all = Vec::new();
+        // Of every contact of the scene which of the part it is; none for what rests.
+        let mut which = Vec::new();
         let last = self.faces.iter().max().map_or(list.len(), |k| list.len().max(k + 1));
         for k in 0..last {
             match self.faces.iter().position(|&f| f == k) {
                 None => {
                     let Some(face) = list.get(k) else { continue };
                     all.push((k, face.points.clone()));
-                    forces.push(self.still[k].clone());
+                    which.push(Err(k));
                 }
                 Some(part) => {
-                    let here = touch.iter().zip(&own.forces).filter(|((j, _), _)| *j == part);
-                    for ((_, at), w) in here {
+                    for (c, (_, at)) in touch.iter().enumerate().filter(|(_, t)| t.0 == part) {
                         all.push((k, at.clone()));
-                        forces.push(w.clone());
+                        which.push(Ok(c));
                     }
                 }
             }
         }
-        forces.extend(self.still.iter().skip(list.len()).cloned());
-        Point { poses, closed, rates, forces, touch: Some(all), ..own }
+        let of = |own: &Forces| -> Forces {
+            let here = which.iter().filter_map(|place| match place {
+                Ok(c) => own.get(*c),
+                Err(k) => Some(&self.still[*k]),
+            });
+            here.chain(self.still.iter().skip(list.len())).cloned().collect()
+        };
+        let (forces, proving) = (of(&own.forces), own.proving.as_ref().map(of));
+        Point { poses, closed, rates, forces, proving, touch: Some(all), ..own }
     }
 
     /// Pairs of its blocks that touch or may come to.

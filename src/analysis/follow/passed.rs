@@ -1,5 +1,9 @@
 //! Which poses of a capacity curve become points of it.
 
+use super::point::{Path, Point};
+use base::tolerance;
+use model::assembly::Pose;
+
 /// Load factors that were passed since the last point.
 pub(super) struct Passed {
     /// The last point: parameter and load factor.
@@ -15,6 +19,16 @@ pub(super) struct Passed {
 const BEND: f64 = 1e-3;
 /// So many steps lie between two points at most. More: films jump.
 const MOST: usize = 10;
+
+/// Whether blocks have turned so far since the last point of a path that these poses have to be one,
+/// for the two to be linked.
+pub(super) fn turned_far(path: &Path, poses: &[Pose]) -> bool {
+    let turn = |p: &Point| {
+        let pairs = p.poses.iter().zip(poses);
+        pairs.map(|(a, b)| a.turn.angle_to(&b.turn)).fold(0.0, f64::max)
+    };
+    path.points.last().is_some_and(|p| turn(p) > 0.5 * tolerance::LONGEST_TURN)
+}
 
 impl Passed {
     /// Nothing passed since this point.

@@ -19,6 +19,8 @@ pub struct Point {
     pub load_factor: f64,
     /// Contact forces at the closed corners ([`Carried::touching`]).
     pub forces: Forces,
+    /// Others at the same places that prove that it stands, where these leave no room for a proof.
+    pub proving: Option<Forces>,
     /// The room that they have.
     pub room: f64,
     /// The mechanism that lets it fall, or that the live load drives; none where it stands.
@@ -28,44 +30,13 @@ pub struct Point {
     pub touch: Option<Vec<(usize, Vec<Vector3<f64>>)>>,
 }
 
-/// What happens on the way.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum EventKind {
-    /// A joint opens beside the others: motion goes on steadily.
-    Opens,
-    /// A joint closes.
-    Closes,
-    /// The motion turns back: at the same parameter it goes on elsewhere, by a jump.
-    Jumps,
-    /// It falls as these joints open.
-    Falls,
-    /// A member yields from here on, or goes slack.
-    Yields,
-    /// Joints slide from here on.
-    Slides,
-    /// Joints that slid stick from here on.
-    Sticks,
-}
-
-/// Something that happens on the way.
-#[derive(Clone, Debug)]
+/// Where something happens on the way; what it is the poses on either side show.
+#[derive(Clone, Copy, Debug)]
 pub struct Event {
     /// The parameter: the last at which the linkage before was seen to hold.
     pub value: f64,
     /// The first at which it was seen not to hold.
     pub beyond: f64,
-    /// What.
-    pub kind: EventKind,
-    /// Joints that open, as interfaces at the start.
-    pub opens: Vec<usize>,
-    /// Joints that close.
-    pub closes: Vec<usize>,
-    /// How far a block moves by the jump at most, m.
-    pub jump: f64,
-    /// Members that yield.
-    pub yields: Vec<usize>,
-    /// Joints that begin to slide, or stick again.
-    pub slides: Vec<usize>,
 }
 
 /// How a path ends.

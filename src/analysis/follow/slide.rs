@@ -1,11 +1,11 @@
 //! Motions that slide: from step to step under dry friction.
 
 use super::{
-    advance::{JointChange, Rested, live_power},
+    advance::{Rested, live_power},
     branch::{Follow, Trial, WIDTH},
     linkage::Linkage,
-    passed::Passed,
-    point::{End, Event, EventKind, Path, Point},
+    passed::{Passed, turned_far},
+    point::{End, Event, Path, Point},
     root::narrow,
     tracker::Tracker,
 };
@@ -32,9 +32,6 @@ const STEPS: usize = 4000;
 const FAILS: usize = 8;
 /// The same of all steps.
 const ALL_FAILS: usize = 16;
-
-/// Whether a joint, and whether it slides, differs between two poses.
-type Changed<'a> = &'a dyn Fn(&(JointChange, bool), &(JointChange, bool)) -> bool;
 
 impl Tracker<'_> {
     /// Why a motion that slides cannot be followed, where it cannot: a joint of edges or corners,
@@ -73,6 +70,7 @@ impl Tracker<'_> {
             poses: poses.to_vec(),
             touch: Vec::new(),
             forces: Vec::new(),
+            proving: None,
             joints: self.joints(poses, |_| false),
             rates: vec![Rate::zero(); blocks],
             load_factor: 0.0,
@@ -89,7 +87,7 @@ impl Tracker<'_> {
         let Some(next) = first.into_iter().find_map(|by| self.advance(&here, value + by)) else {
             return Err(End::Stuck("no motion under dry friction was found".into()));
         };
-        self.tell(&here, &next, path);
+        path.events.push(Event { value: here.value, beyond: next.value });
         here = next;
         path.between += 1;
         let mut passed = Passed::new(here.value, here.load_factor);
@@ -142,7 +140,7 @@ impl Tracker<'_> {
             };
             let changed = next.joints != here.joints;
             if changed {
-                self.tell(&here, &next, path);
+                path.events.push(Event { value: here.value, beyond: next.value });
             }
             if let Some(text) = (self.meets)(&next.poses, true) {
                 return Ok(End::Stuck(text));
@@ -155,7 +153,8 @@ impl Tracker<'_> {
                     path.between -= 1;
                 }
             }
-            if changed || (!is_push && next.value == aim) || next.value == stop {
+            let wanted = changed || (!is_push && next.value == aim) || next.value == stop;
+            if wanted || turned_far(path, &next.poses) {
                 path.points.push(self.slid_point(&next));
                 passed = Passed::new(next.value, next.load_factor);
             } else {
@@ -188,38 +187,6 @@ impl Tracker<'_> {
         high
     }
 
-    /// What changes between two poses.
-    fn tell(&self, low: &Rested, high: &Rested, path: &mut Path) {
-        let changed = |is: Changed| {
-            let pairs = low.joints.iter().zip(&high.joints).enumerate();
-            pairs.filter(|(_, (a, b))| is(a, b)).map(|(k, _)| k).collect::<Vec<usize>>()
-        };
-        let event = |kind, opens, closes, slides| Event {
-            value: low.value,
-            beyond: high.value,
-            kind,
-            opens,
-            closes,
-            jump: 0.0,
-            yields: Vec::new(),
-            slides,
-        };
-        let slides = changed(&|a, b| !a.1 && b.1);
-        let sticks = changed(&|a, b| a.1 && !b.1);
-        let opens = changed(&|a, b| a.0 > b.0);
-        let closes = changed(&|a, b| a.0 < b.0);
-        let none = Vec::new;
-        let list = [
-            event(EventKind::Slides, none(), none(), slides),
-            event(EventKind::Sticks, none(), none(), sticks),
-            event(EventKind::Opens, opens, none(), none()),
-            event(EventKind::Closes, none(), closes, none()),
-        ];
-        let is_one =
-            |e: &Event| !(e.opens.is_empty() && e.closes.is_empty() && e.slides.is_empty());
-        path.events.extend(list.into_iter().filter(is_one));
-    }
-
     fn slid_point(&self, at: &Rested) -> Point {
         let list = &self.carried.start.interfaces.list;
         if self.drive.is_push() {
@@ -231,6 +198,7 @@ impl Tracker<'_> {
                 closed: vec![Vec::new(); list.len()],
                 load_factor: at.load_factor,
                 forces: at.forces,
+                proving: None,
                 room: 0.0,
                 rates: at.rates,
                 touch: Some(at.touch),
@@ -242,6 +210,7 @@ impl Tracker<'_> {
             closed: vec![Vec::new(); list.len()],
             load_factor: 0.0,
             forces: at.forces.clone(),
+            proving: at.proving.clone(),
             room: 0.0,
             rates: Vec::new(),
             touch: Some(at.touch.clone()),
@@ -338,22 +307,14 @@ impl Tracker<'_> {
                 closed: vec![Vec::new(); self.carried.start.interfaces.list.len()],
                 load_factor: 0.0,
                 forces: verdict.forces.clone(),
+                proving: None,
                 room: 0.0,
                 rates: verdict.rates.clone(),
                 touch: Some(touch(&found)),
             })
         });
         let Some(falls) = falls else { return stuck };
-        path.events.push(Event {
-            value: here.value,
-            beyond: falls.value,
-            kind: EventKind::Falls,
-            opens: Vec::new(),
-            closes: Vec::new(),
-            jump: 0.0,
-            yields: Vec::new(),
-            slides: Vec::new(),
-        });
+        path.events.push(Event { value: here.value, beyond: falls.value });
         End::Falls(Box::new([self.slid_point(here), falls]))
     }
 }

@@ -208,20 +208,20 @@ impl<'a> Tracker<'a> {
             closed: closed.to_vec(),
             load_factor: if self.drive.is_push() { at.load_factor } else { 0.0 },
             forces: margin.forces.clone(),
+            proving: None,
             room: margin.room,
             rates: self.mechanism(linkage, &at.place),
             touch: None,
         }
     }
 
-    /// Corners closed with those that have just come together, and the joints of these.
+    /// Corners closed with those that have just come together.
     pub(super) fn with_closed(
         &self,
         poses: &[Pose],
         closed: &[Vec<usize>],
-    ) -> Result<(Vec<Vec<usize>>, Vec<usize>), End> {
+    ) -> Result<Vec<Vec<usize>>, End> {
         let mut now = closed.to_vec();
-        let mut joints = Vec::new();
         for c in self.open(poses, closed).into_iter().filter(|c| c.gap.abs() <= 1e-8) {
             // Copies that meet beside each other touch at other points than those that parted.
             if c.apart > 1e-7 {
@@ -231,10 +231,8 @@ impl<'a> Tracker<'a> {
             }
             now[c.interface].push(c.point);
             now[c.interface].sort_unstable();
-            joints.push(c.interface);
         }
-        joints.dedup();
-        Ok((now, joints))
+        Ok(now)
     }
 
     /// Corners that are about to open where the room is used up.

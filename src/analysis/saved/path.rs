@@ -1,7 +1,7 @@
 //! Paths and their points.
 
 use crate::follow::{
-    End, Event, EventKind, Point,
+    End, Point,
     answer::{Followed, PointProof},
 };
 use check::{
@@ -9,9 +9,8 @@ use check::{
     proof::{
         certificate::Certificate,
         evidence::{EndEvidence, PathEvidence, PointEvidence},
-        path::{PathEvent, PathEventKind},
     },
-    verdict::{Evidence, Rate, claim::Findings},
+    verdict::{Evidence, Rate, claim::Findings, evidence::write_forces},
 };
 use model::interface::Model;
 use std::sync::Arc;
@@ -25,6 +24,7 @@ pub fn path_evidence(model: &Model, followed: &Followed) -> PathEvidence {
         poses: write_poses(&model.assembly, &p.poses),
         certificate: certificate(proof),
         bound: proof.bound.as_deref().map(certificate),
+        motion: proof.motion.as_ref().map_or_else(Vec::new, |f| write_forces(&proof.model, f)),
     };
     let ends = match &path.end {
         End::Falls(list) => list.iter().zip(&followed.ends).map(|(p, f)| point(p, f)).collect(),
@@ -49,30 +49,8 @@ pub fn path_evidence(model: &Model, followed: &Followed) -> PathEvidence {
     PathEvidence {
         points: path.points.iter().zip(&followed.proofs).map(|(p, f)| point(p, f)).collect(),
         ends: if end == EndEvidence::Falls { ends } else { Vec::new() },
-        events: path.events.iter().map(|e| event(model, &pair, e)).collect(),
         end,
         least,
-    }
-}
-
-fn event(model: &Model, pair: &dyn Fn(usize) -> [String; 2], e: &Event) -> PathEvent {
-    let joints = |list: &[usize]| list.iter().map(|&k| pair(k)).collect();
-    PathEvent {
-        value: e.value,
-        kind: match e.kind {
-            EventKind::Opens => PathEventKind::Opens,
-            EventKind::Closes => PathEventKind::Closes,
-            EventKind::Jumps => PathEventKind::Jumps,
-            EventKind::Falls => PathEventKind::Falls,
-            EventKind::Yields => PathEventKind::Yields,
-            EventKind::Slides => PathEventKind::Slides,
-            EventKind::Sticks => PathEventKind::Sticks,
-        },
-        opens: joints(&e.opens),
-        closes: joints(&e.closes),
-        jump: (e.jump > 0.0).then_some(e.jump),
-        yields: e.yields.iter().map(|&m| model.interfaces.members[m].id.clone()).collect(),
-        slides: joints(&e.slides),
     }
 }
 

@@ -3,14 +3,14 @@
 //! computed where there is no proof. No verdicts, no sentences.
 
 use super::{
-    certificate::Certificate, kinematic::Control, path::PathEvent, rocking::RockingAnswer,
-    shaken::ShakenAnswer, simulation::Seen,
+    certificate::Certificate, kinematic::Control, rocking::RockingAnswer, shaken::ShakenAnswer,
+    simulation::Seen,
 };
 use crate::{
     elastic::PathEnd,
     path::saved::SavedPose,
     terms::{ClosedAnswer, Found, Law, Method, Order, StateMotion},
-    verdict::Verdict,
+    verdict::{Verdict, evidence::ContactForces},
 };
 use model::train::Travel;
 use schemars::JsonSchema;
@@ -115,6 +115,19 @@ pub struct DryEvidence {
     pub moves_at: Option<f64>,
     /// Forces and a mechanism.
     pub certificate: Arc<Certificate>,
+}
+
+impl DryEvidence {
+    /// That nothing is known.
+    pub(super) fn undecided() -> Self {
+        Self {
+            found: Found::Undecided,
+            value: None,
+            rests_at: None,
+            moves_at: None,
+            certificate: Arc::default(),
+        }
+    }
 }
 
 /// Of `limit`.
@@ -239,9 +252,6 @@ pub struct PathEvidence {
     /// It falls: the last pose that stands and the first that falls, of the same linkage.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub ends: Vec<PointEvidence>,
-    /// What happened on the way. Computed.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub events: Vec<PathEvent>,
     /// How it ends.
     pub end: EndEvidence,
     /// Settle: of the least reaction at the start; its rates are of the free blocks, and the
@@ -256,8 +266,6 @@ impl PathEvidence {
     pub fn and(mut self, next: Self) -> Self {
         let last = self.points.last().map_or(f64::NEG_INFINITY, |p| p.value);
         self.points.extend(next.points.into_iter().filter(|p| p.value > last));
-        // What slides there slid before.
-        self.events.extend(next.events.into_iter().filter(|e| e.value > last));
         Self { ends: next.ends, end: next.end, ..self }
     }
 }
@@ -291,6 +299,10 @@ pub struct PointEvidence {
     /// Of a load factor with dry friction: of its bound.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bound: Option<Arc<Certificate>>,
+    /// Forces that the motion has here where those of the certificate are others: friction that is
+    /// used up leaves no room for an exact proof.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub motion: Vec<ContactForces>,
 }
 
 /// Of `kinematic`.

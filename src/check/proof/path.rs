@@ -1,6 +1,7 @@
 //! Results of `settle` and `push`: a curve, each point of it with its poses and its proof.
 
 mod derive;
+mod links;
 
 pub(super) use derive::{curve, derive};
 
@@ -9,7 +10,7 @@ use crate::{path::Carried, path::saved::SavedPose, verdict::claim::Claim};
 use base::tolerance;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use std::sync::Arc;
 
 /// How far it goes.
@@ -25,6 +26,10 @@ pub struct PathAnswer {
     /// It falls: at this value it is proved to.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub falls_at: Option<f64>,
+    /// It jumps here first: the motion turns back, and what is told of beyond is what it may come to
+    /// by a motion that is not followed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub jumps_at: Option<f64>,
     /// Settle: the least power that the blocks' forces on the supports can have at the start as
     /// these begin to move, J per unit of the parameter. Where one support moves straight by 1 m it
     /// is its least reaction in that direction, N.
@@ -172,9 +177,8 @@ pub struct Slip {
     pub way: f64,
 }
 
-/// Something that happens on the way.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+/// Something that happens on the way, as poses, forces and rates of the points show it.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct PathEvent {
     /// The parameter.
     pub value: f64,
@@ -186,7 +190,7 @@ pub struct PathEvent {
     /// Joints that close.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub closes: Vec<[String; 2]>,
-    /// Members that yield or go slack.
+    /// Members that yield, or that go slack as it falls.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub yields: Vec<String>,
     /// Joints that begin to slide, or that stick again.
@@ -198,7 +202,7 @@ pub struct PathEvent {
 }
 
 /// What happens on the way.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum PathEventKind {
     /// Another joint opens, and the motion goes on steadily.

@@ -156,18 +156,26 @@ pub struct Direction {
 }
 
 impl Direction {
-    /// The tilt that counts, degrees: with dry friction where that is known, else the bound. A
-    /// direction without an answer governs: it must not hide behind the others.
+    /// The tilt that counts, degrees: with dry friction where that was asked, up to where it was seen
+    /// at rest where no value was found; else the bound. A direction without an answer governs: it
+    /// must not hide behind the others.
     pub fn governing(&self) -> f64 {
-        if self.dry.as_ref().is_some_and(|d| d.found == Found::NotAtRest) {
-            return f64::NEG_INFINITY;
-        }
-        let dry = self.dry.as_ref().and_then(|d| d.value).map(|v| v.atan().to_degrees());
-        let bound = self.answer.bound().and_then(|b| match b.status {
-            Outcome::Unbounded => Some(90.0),
-            _ => b.value.map(|v| v.atan().to_degrees()),
-        });
-        dry.or(bound).unwrap_or(f64::NEG_INFINITY)
+        let degrees = |v: f64| v.atan().to_degrees();
+        let bound = || {
+            self.answer.bound().and_then(|b| match b.status {
+                Outcome::Unbounded => Some(90.0),
+                _ => b.value.map(degrees),
+            })
+        };
+        let known = match &self.dry {
+            None => bound(),
+            Some(d) => match d.found {
+                Found::NotAtRest => None,
+                Found::Unlimited => Some(90.0),
+                _ => d.value.or(d.rests_at).map(degrees),
+            },
+        };
+        known.unwrap_or(f64::NEG_INFINITY)
     }
 }
 

@@ -9,7 +9,7 @@ use base::number::{bracketed, count, fixed, moving, point, short};
 use check::question::QuestionKind;
 use check::{
     proof::{
-        path::{DrivenBy, PathEvent, PathEventKind, PathPoint, PathResult, PathStatus},
+        path::{DrivenBy, PathAnswer, PathEvent, PathEventKind, PathPoint, PathResult, PathStatus},
         result::ResultFile,
     },
     verdict::claim::Claim,
@@ -44,6 +44,20 @@ pub(super) fn title(file: &ResultFile) -> (String, Role) {
     let (Some(a), Some(path)) = (file.answer.path(), &file.path) else {
         return ("undecided".into(), Role::Unsure);
     };
+    let (text, role) = followed(file, a, path);
+    match (a.jumps_at, role) {
+        (None, _) => (text, role),
+        (Some(v), role) => (
+            format!(
+                "jumps at {}; beyond the jump, by a motion that is not followed, {text}",
+                at(path, v, 6)
+            ),
+            if role == Role::Good { Role::Unsure } else { role },
+        ),
+    }
+}
+
+fn followed(file: &ResultFile, a: &PathAnswer, path: &PathResult) -> (String, Role) {
     let known = a.value.map(|v| at(path, v, 6));
     let up_to = known.clone().unwrap_or_else(|| "nowhere".into());
     match (a.status, a.value, a.falls_at) {

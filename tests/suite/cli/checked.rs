@@ -80,12 +80,14 @@ fn a_verification_is_printed_for_other_programs() {
         .unwrap()
     };
     let good = of(YES, &result);
-    assert_eq!((&good["proved"], &good["refuted"]), (&json!(true), &json!(false)));
+    assert_eq!((&good["confirmed"], &good["grade"]), (&json!(true), &json!("computed")));
+    assert_eq!(good["parts"][0]["grade"], "computed");
+    assert_eq!(good["answer"], result["answer"]);
     let mut forged = result;
     forged["evidence"]["assess"]["standing"]["certificate"]["forces"][3]["forces"][0][2] =
         json!(1e6);
     let bad = of(NO, &forged);
-    assert_eq!((&bad["proved"], &bad["refuted"]), (&json!(false), &json!(true)));
+    assert_eq!((&bad["confirmed"], &bad["grade"]), (&json!(false), &json!("refuted")));
     assert!(
         bad["parts"].as_array().unwrap().iter().any(|p| !p["fails"].as_array().unwrap().is_empty()),
         "{bad}"

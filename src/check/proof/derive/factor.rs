@@ -5,7 +5,7 @@ use crate::{
     proof::{
         answer::LoadFactorAnswer,
         certificate::{DryResult, Proven},
-        evidence::FactorEvidence,
+        evidence::{DryEvidence, FactorEvidence},
     },
     terms::{Bound, Deciding, Law, Outcome},
     verdict::{
@@ -83,7 +83,11 @@ impl Derivation<'_> {
         let moves = proven.as_ref().filter(|p| !matches!(p.claim, Some(Claim::Unbounded { .. })));
         let part = moves.and_then(|p| deciding(model, &p.rates));
         self.part(title, f);
-        let dry = e.dry.as_ref().map(|dry| {
+        // Asked, and nothing is known of it.
+        let missing = DryEvidence::undecided();
+        let leaves_something = matches!(bound.status, Outcome::Found | Outcome::Unbounded);
+        let missing = Some(&missing).filter(|_| law == Law::Coulomb && leaves_something);
+        let dry = e.dry.as_ref().or(missing).map(|dry| {
             let title = match title {
                 "answer" => "dry friction".to_string(),
                 title => format!("{title}, dry friction"),

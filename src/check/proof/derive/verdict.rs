@@ -14,6 +14,7 @@ use crate::{
         claim::{self, Claim, Findings},
     },
 };
+use base::tolerance;
 use model::interface::{self, Model, Part, is_forest};
 
 impl Derivation<'_> {
@@ -94,8 +95,12 @@ impl Derivation<'_> {
 fn unbalance(model: &Model, proven: &Proven, verdict: Verdict) -> Bracket {
     let Proven { claim, forces, rates, .. } = proven;
     let parts = interface::parts(model);
-    let left =
-        |part: &Part| certificate::statics(&part.model, &part.take_forces(forces), 0.0).unbalance;
+    // Forces outside their cones bound nothing.
+    let left = |part: &Part| {
+        let left = certificate::statics(&part.model, &part.take_forces(forces), 0.0);
+        let admissible = claim.is_some() || left.cone_excess <= tolerance::CONE;
+        if admissible { left.unbalance } else { f64::INFINITY }
+    };
     let upper = parts.iter().map(left).fold(0.0, f64::max);
     // Rates bound nothing from below unless they are a mechanism.
     if verdict != Verdict::Undecided && *claim != Some(Claim::Unstable) {

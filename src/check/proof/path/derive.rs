@@ -1,8 +1,10 @@
 //! Paths: every point from its poses alone, and the answer from the points.
 
 use super::{
-    Bracketed, DrivenBy, MovingSupport, PathAnswer, PathEventKind, PathPoint, PathResult,
-    PathStatus, Reaction, hinges, slips,
+    Bracketed, DrivenBy, MovingSupport, PathAnswer, PathPoint, PathResult, PathStatus, Reaction,
+    hinges,
+    links::{self, Seen, Step},
+    slips,
 };
 use crate::{
     path::{Carried, Drive, Moves, reaction, saved::read_poses},
@@ -15,12 +17,16 @@ use crate::{
     },
     question::Question,
     verdict::{
+        Forces, certificate,
         claim::{self, Claim, Findings},
-        evidence::read_rates,
+        evidence::{read_forces, read_rates},
     },
 };
 use base::tolerance;
-use model::{assembly::Pose, interface::Model};
+use model::{
+    assembly::{Assembly, Pose},
+    interface::Model,
+};
 use std::sync::Arc;
 
 /// The answer of `settle` or `push`.
@@ -47,25 +53,30 @@ pub(in crate::proof) fn curve(
     e: &PathEvidence,
 ) -> Result<(PathAnswer, PathResult), String> {
     let carried = Carried::new(model);
-    let mut points = Vec::new();
-    let mut poses = Vec::new();
+    let (mut points, mut seen) = (Vec::new(), Vec::new());
     for (k, own) in e.points.iter().enumerate() {
         let title = format!("point {} at {}", k + 1, own.value);
         let (told, here) = point(d, title, (&carried, drive), own)?;
         points.push(told);
-        poses.push(here);
+        seen.push(here);
     }
-    let mut ends = Vec::new();
+    let (mut ends, mut ends_seen) = (Vec::new(), Vec::new());
     for (word, own) in ["last that stands", "first that falls"].iter().zip(&e.ends) {
         let title = format!("{word}, at {}", own.value);
-        ends.push(point(d, title, (&carried, drive), own)?.0);
+        let (told, here) = point(d, title, (&carried, drive), own)?;
+        ends.push(told);
+        ends_seen.push(here);
     }
     let mut f = Findings::default();
     let ordered = points.windows(2).all(|w| w[0].value <= w[1].value);
     require(&mut f, ordered, "the points are in order");
-    events_hold(&mut f, &carried, e, &poses)?;
-    for (k, pair) in poses.windows(2).enumerate() {
-        between(&mut f, &carried, k, [&points[k], &points[k + 1]], [&pair[0], &pair[1]]);
+    if let Some(first) = seen.first() {
+        begins(&mut f, d.question, &model.assembly, first)?;
+    }
+    let steps: Vec<Step> = seen.windows(2).map(|w| w[0].step(&carried, &w[1])).collect();
+    let chain = Chain::of(&carried, &seen, &steps, &ends_seen);
+    for (k, pair) in seen.windows(2).enumerate().filter(|(k, _)| !chain.jumps.contains(k)) {
+        between(&mut f, &carried, k, [&pair[0].poses, &pair[1].poses]);
     }
     let natural = claim::natural_factor(&model.assembly);
     let least_reaction = match (drive, &e.least) {
@@ -75,26 +86,93 @@ pub(in crate::proof) fn curve(
     };
     let ends_well = (ends.len() == 2) == (e.end == EndEvidence::Falls) && ends.len() != 1;
     require(&mut f, ends_well, "the poses at which it falls are given where it does");
-    let (status, value, falls_at) = status(drive, (&points, &ends), &e.end, natural);
-    let why = match (&e.end, status) {
-        (EndEvidence::Slides([a, b]), PathStatus::Slides) => {
+    let whole = chain.broken.is_none();
+    let linked = &points[..chain.broken.map_or(points.len(), |k| k + 1)];
+    let end = if whole { &e.end } else { &EndEvidence::Open };
+    let (status, value, falls_at) = status(drive, (linked, &ends), end, natural);
+    let why = match (&e.end, chain.broken) {
+        (_, Some(k)) => Some(format!(
+            "between {} and {} what carries does not stay where it was: the two poses are not linked",
+            points[k].value,
+            points.get(k + 1).or(ends.last()).map_or(points[k].value, |p| p.value)
+        )),
+        (EndEvidence::Slides([a, b]), None) => {
             known(&carried, &[a.clone(), b.clone()])?;
             Some(format!("{a} and {b} slide on each other"))
         }
         _ => None,
     };
+    let off = steps.iter().enumerate().filter(|(k, _)| !chain.jumps.contains(k));
+    let off = off.map(|(_, s)| s.off).fold(0.0, f64::max);
+    f.holds.push(match whole {
+        true => format!(
+            "what carries at a point lay together at the one before, to {off:.0e} of its block"
+        ),
+        false => "what does not is not linked, and nothing is said from there on".into(),
+    });
     f.holds.push("that the poses are on the way is computed, not proved: what is proved is what each point says of the scene there".into());
     f.computed = true;
     d.part("curve", f);
-    let answer = PathAnswer { status, value, falls_at, least_reaction, why };
+    let jumps_at = chain.jumps.first().map(|&k| points[k].value);
+    let answer = PathAnswer { status, value, falls_at, jumps_at, least_reaction, why };
+    let events = links::events(&carried, &seen, &steps, &ends_seen);
     let path = PathResult {
         driven_by: driven_by(model, drive),
         points,
-        events: e.events.clone(),
+        events,
         ends,
         least: e.least.clone(),
     };
     Ok((answer, path))
+}
+
+/// How far poses are linked.
+struct Chain {
+    /// The points after which it goes on by a jump.
+    jumps: Vec<usize>,
+    /// The first point after which it does not go on at all.
+    broken: Option<usize>,
+}
+
+impl Chain {
+    fn of(carried: &Carried, points: &[Seen], steps: &[Step], ends: &[Seen]) -> Self {
+        let last = points.last().map_or(0.0, |p| p.value);
+        let jump = |k: &usize| points[*k].jumps_to(&points[k + 1], &steps[*k], last);
+        let jumps: Vec<usize> = (0..steps.len()).filter(jump).collect();
+        let broken = (0..steps.len()).find(|k| !jumps.contains(k) && !steps[*k].links());
+        let falls = match (points.last(), ends) {
+            (Some(last), [stands, falls]) => {
+                last.step(carried, stands).links()
+                    && stands.step_on(carried, falls).links_straight()
+            }
+            _ => true,
+        };
+        let end = points.len().checked_sub(1).filter(|_| !falls);
+        Self { jumps, broken: broken.or(end) }
+    }
+}
+
+/// The first pose is that of the scene, or the one that the question begins at.
+fn begins(
+    f: &mut Findings,
+    question: &Question,
+    assembly: &Assembly,
+    first: &Seen,
+) -> Result<(), String> {
+    let from = match question {
+        Question::Settle(o) => &o.from[..],
+        Question::Push(o) => &o.from[..],
+        _ => &[],
+    };
+    let there = read_poses(assembly, from)?;
+    let off =
+        first.poses.iter().zip(&there).zip(&assembly.blocks).map(|((a, b), block)| {
+            (a.shift - b.shift).norm() / block.size + a.turn.angle_to(&b.turn)
+        });
+    let off = off.fold(0.0, f64::max);
+    let word = if from.is_empty() { "that of the scene" } else { "the one that it begins at" };
+    require(f, off <= tolerance::ON_THE_WAY, format!("the first pose is {word}"));
+    Ok(())
 }
 
 fn driven_by(model: &Model, drive: &Drive) -> DrivenBy {
@@ -157,7 +235,7 @@ fn point(
     title: String,
     (carried, drive): (&Carried, &Drive),
     e: &PointEvidence,
-) -> Result<(PathPoint, Vec<Pose>), String> {
+) -> Result<(PathPoint, Seen), String> {
     let mut f = Findings::default();
     let assembly = &carried.start.assembly;
     let poses = read_poses(assembly, &e.poses).map_err(|text| format!("{title}: {text}"))?;
@@ -191,6 +269,11 @@ fn point(
         Drive::Push { .. } => Vec::new(),
     };
     let proved = proven.as_ref().filter(|p| p.claim.is_some());
+    let falls = proved.filter(|_| claim == Some(Claim::Unstable)).map(|p| &p.rates[..]);
+    let motion = motion(&mut f, model, e)?;
+    let rests = proved.filter(|_| claim != Some(Claim::Unstable));
+    let rests = rests.map(|p| motion.as_ref().unwrap_or(&p.forces));
+    let seen = Seen::new(carried, (e.value, poses.clone()), (model, &displaced.from), rests, falls);
     let reactions = proved.map_or_else(Vec::new, |p: &Proven| {
         let on = |&i: &usize| {
             let w = reaction::on_support(model, &p.forces, i);
@@ -214,7 +297,23 @@ fn point(
         proved: claim,
         most,
     };
-    Ok((told, poses))
+    Ok((told, seen))
+}
+
+/// The forces that the motion has, where they are given: they balance the loads as those of a motion
+/// under dry friction do.
+fn motion(f: &mut Findings, model: &Model, e: &PointEvidence) -> Result<Option<Forces>, String> {
+    if e.motion.is_empty() {
+        return Ok(None);
+    }
+    let forces = read_forces(model, &e.motion)?;
+    let left = certificate::statics(model, &forces, 0.0);
+    require(
+        f,
+        left.unbalance <= tolerance::DRY_BALANCE && left.cone_excess <= tolerance::CONE,
+        format!("the forces of the motion balance the loads, to {:.0e}", left.unbalance),
+    );
+    Ok(Some(forces))
 }
 
 /// A load factor with dry friction is at most its bound, and only such a one has a bound.
@@ -243,50 +342,6 @@ fn bound(
     Ok(Some(upper))
 }
 
-/// Joints that are spoken of are joints of the scene, and what is said of them shows at the points.
-fn events_hold(
-    f: &mut Findings,
-    carried: &Carried,
-    e: &PathEvidence,
-    poses: &[Vec<Pose>],
-) -> Result<(), String> {
-    let first = e.points.first().map_or(0.0, |p| p.value);
-    let last = e.points.iter().chain(&e.ends).map(|p| p.value).fold(first, f64::max);
-    for event in &e.events {
-        let joints = event.opens.iter().chain(&event.closes).chain(&event.slides);
-        for pair in joints {
-            known(carried, pair)?;
-        }
-        let members = &carried.start.interfaces.members;
-        if let Some(id) = event.yields.iter().find(|id| members.iter().all(|m| m.id != **id)) {
-            return Err(format!("the scene has no member {id}"));
-        }
-        let small = 1e-9 * last.abs().max(first.abs());
-        require(
-            f,
-            (first - small..=last + small).contains(&event.value),
-            format!("what happens at {} is on the way", event.value),
-        );
-        if event.kind != PathEventKind::Jumps && event.jump.is_some() {
-            return Err("a jump is told where there is none".into());
-        }
-        let Some(said) = event.jump else { continue };
-        let at = (1..poses.len()).find(|&k| {
-            e.points[k].value == e.points[k - 1].value
-                && (e.points[k].value - event.value).abs() <= small
-        });
-        let Some(k) = at else { continue };
-        let ways = poses[k].iter().zip(&poses[k - 1]).map(|(a, b)| (a.shift - b.shift).norm());
-        let here = ways.fold(0.0, f64::max);
-        require(
-            f,
-            (here - said).abs() <= tolerance::SAVED * here.max(said) || here <= said,
-            format!("by the jump at {} blocks go {said} m at most", event.value),
-        );
-    }
-    Ok(())
-}
-
 fn known(carried: &Carried, [a, b]: &[String; 2]) -> Result<(), String> {
     let id = |i: usize| &carried.start.assembly.blocks[i].id;
     let is = |k: &model::interface::Interface| id(k.a) == a && id(k.b) == b;
@@ -302,16 +357,7 @@ const BETWEEN: [f64; 3] = [0.25, 0.5, 0.75];
 /// No joint closes on the way between two neighbouring points beyond what straight ways between
 /// their poses, which are curved ones in truth, may be off by: a block's way × its turn, eight times
 /// what a turn about a fixed point is, for blocks do not turn in proportion to each other.
-fn between(
-    f: &mut Findings,
-    carried: &Carried,
-    k: usize,
-    ends: [&PathPoint; 2],
-    [from, to]: [&[Pose]; 2],
-) {
-    if ends[0].value == ends[1].value {
-        return f.holds.push("a jump, which is not followed".into());
-    }
+fn between(f: &mut Findings, carried: &Carried, k: usize, [from, to]: [&[Pose]; 2]) {
     let assembly = &carried.start.assembly;
     let off: Vec<f64> = from
         .iter()
