@@ -14,9 +14,9 @@ use voussoir::{
     },
     report::{
         drawing::{self, Aspect},
-        gltf, json, obj, page, path,
+        gltf, json, obj, page,
         record::{Origin, Record},
-        table,
+        table, tell,
         text::{self, Asked, Layout, TextOptions},
         view::View,
         vtk,
@@ -286,7 +286,7 @@ impl Answer {
                 Some(packed) => text::packing(&packed.file, EVERYTHING, layout),
                 None => text::render(&kept.file, asked, EVERYTHING, layout),
             };
-            let charts = page::attempts(&kept.file);
+            let charts = tell::attempts(&kept.file);
             let view = kept.view()?;
             let record = match &kept.packed {
                 Some(_) => Record::default(),
@@ -339,7 +339,7 @@ impl Answer {
             "joints" => table::joints(&kept.view()?).map_err(Trouble::other),
             "blocks" => table::blocks(&kept.view()?).map_err(Trouble::other),
             "members" => table::members(&kept.view()?).map_err(Trouble::other),
-            "path" => path::csv(&kept.file).map_err(Trouble::other),
+            "path" => tell::csv(&kept.file).map_err(Trouble::other),
             other => Err(Trouble::Other(format!("there is no table {other}"))),
         })
     }

@@ -61,7 +61,7 @@ pub struct Assessment {
 
 /// Best first; measured on the reference cases. Beside each rung: for how many questions it was the
 /// last that was tried, on the grid of `study --extreme` (2,381) and for random scenes (714 of
-/// `study --soak 500`), and which of them stay open without it.
+/// `trials soak 500`), and which of them stay open without it.
 const LADDER: [Rung; 8] = [
     // Grid 2,281, random 610. Without it 3 walls of the grid.
     Rung::FORCES,

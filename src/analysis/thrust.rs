@@ -59,7 +59,7 @@ pub struct ThrustEnd {
     pub left_out: Vec<String>,
 }
 
-/// Best first, in forces. Beside each rung: for how many of 233 random scenes (`study --soak 500`)
+/// Best first, in forces. Beside each rung: for how many of 233 random scenes (`trials soak 500`)
 /// it was the last that was tried, and which of them stay open without it. Of 34 structures and 38
 /// reference cases none went further than the first.
 const LADDER: [Rung; 5] = [

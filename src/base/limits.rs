@@ -55,10 +55,9 @@ pub const PER_PAIR: u64 = 256;
 /// Bytes per contact point while a program is solved: its rows and columns, the engine's copies,
 /// the factors.
 pub const PER_CONTACT_POINT: u64 = 8 << 10;
-/// Bytes per block and frame of a simulation that is kept.
-pub const PER_POSE: u64 = 640;
-/// Bytes per row of a sweep and per number that varies.
-pub const PER_ROW: u64 = 512;
+
+/// Values of a range that are scanned: each is a question of its own.
+pub const SCANNED: usize = 100_000;
 
 static MEMORY: AtomicU64 = AtomicU64::new(0);
 

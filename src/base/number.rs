@@ -124,6 +124,12 @@ pub fn point(p: [f64; 3]) -> String {
     format!("({}, {}, {})", short(p[0]), short(p[1]), short(p[2]))
 }
 
+/// Words at the start of a sentence.
+pub fn capital(words: &str) -> String {
+    let mut letters = words.chars();
+    letters.next().map_or_else(String::new, |c| c.to_uppercase().chain(letters).collect())
+}
+
 /// A time.
 pub fn seconds(s: f64) -> String {
     if s >= 100.0 {

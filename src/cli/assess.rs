@@ -36,7 +36,6 @@ pub fn run(args: &Assess, terminal: &Terminal) -> anyhow::Result<Exit> {
         }
         film = camera.frames();
     }
-    let file: ResultFile =
-        session.answer_seen(terminal, &args.options(), Depicted::Scene(film), file)?;
+    let file: ResultFile = session.answer_seen(terminal, Depicted::Scene(film), file)?;
     Ok(unless_weaker(&file, verdict(file.answer.verdict())))
 }

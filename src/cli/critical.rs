@@ -48,12 +48,7 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
         (Answer::Critical(flips), Some(_)) => picture(&session, flips)?,
         _ => Depicted::Scene(Vec::new()),
     };
-    let file = session.answer_seen(
-        terminal,
-        &args.options(),
-        seen,
-        session.result(&question, &answer)?,
-    )?;
+    let file = session.answer_seen(terminal, seen, session.result(&question, &answer)?)?;
     let exit = match file.answer.critical() {
         Some(values) if !values.is_empty() => Exit::Yes,
         _ if file.critical.as_ref().and_then(CriticalResult::exhausted).is_some() => Exit::No,

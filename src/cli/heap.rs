@@ -30,6 +30,7 @@ use voussoir::{
         heaps::{HeapResult, MarginResult, ReposeFile},
         json, page,
         record::Record,
+        tell,
         text::{self, TextOptions},
         view::View,
     },
@@ -172,7 +173,7 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
         let words = text::heaps(&file, report::EVERYTHING, report::layout(layout));
         let drawing = drawing::printed(view, pictures.aspect());
         let record = Record::of_heaps(&file, drawing, report::now());
-        report.write(&page::filed(&words, view, page::heaps(&file).as_slice(), &record)?)?;
+        report.write(&page::filed(&words, view, tell::heaps(&file).as_slice(), &record)?)?;
     }
     if args.common.json {
         terminal::print(&text)?;

@@ -4,25 +4,21 @@ use super::{
     args::Kinematic as Arguments,
     exit::Exit,
     ground,
-    output::Sink,
     question::{Session, requirement, unless_weaker},
     terminal::Terminal,
+    told::Told,
 };
 use anyhow::bail;
 use voussoir::{
     analysis::{ControlPoint, KinematicOptions, Question},
     proof::kinematic::Numbers,
-    report::kinematic,
 };
 
 pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
     let session = Session::open(&args.common)?;
-    let open = |path: &Option<std::path::PathBuf>| {
-        path.as_deref().map(|p| Sink::open(Some(p))).transpose()
-    };
-    let (csv, svg) = (open(&args.csv)?, open(&args.svg)?);
+    let told = Told::open(&args.csv, &args.svg)?;
     if args.rocking.asked() {
-        return in_time(args, &session, terminal, csv, svg);
+        return in_time(args, &session, terminal, told);
     }
     if let Some(option) = args.rocking.idle() {
         bail!("{option} goes with --ground or --pulse");
@@ -39,13 +35,8 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
         skip_dead: args.skip_dead,
     });
     let answer = session.ask(&question)?;
-    let file = session.answer(terminal, &args.options(), session.result(&question, &answer)?)?;
-    if let Some(csv) = csv {
-        csv.write(&kinematic::csv(&file)?)?;
-    }
-    if let Some(svg) = svg {
-        svg.write(&kinematic::chart(&file)?)?;
-    }
+    let file = session.answer(terminal, session.result(&question, &answer)?)?;
+    told.write(&file)?;
     let exit = requirement(&file, question.require(), |alpha| alpha);
     // A site asks whether it is enough.
     let numbers = file.answer.kinematic().map(|a| &a.numbers);
@@ -64,8 +55,7 @@ fn in_time(
     args: &Arguments,
     session: &Session,
     terminal: &Terminal,
-    csv: Option<Sink>,
-    svg: Option<Sink>,
+    told: Told,
 ) -> anyhow::Result<Exit> {
     let without = [
         (args.fc.is_some(), "--fc"),
@@ -87,8 +77,7 @@ fn in_time(
         args: &args.rocking,
         toward: args.toward.first().copied(),
         control: args.control.clone(),
-        csv,
-        svg,
+        told,
     };
-    ground::rock(session, &args.common, terminal, ask)
+    ground::rock(session, terminal, ask)
 }

@@ -1,7 +1,6 @@
 //! `voussoir limit`
 
 use super::{
-    again::{skip_dead, worst},
     args::Limit,
     exit::Exit,
     moving,
@@ -27,11 +26,7 @@ pub fn run(args: &Limit, terminal: &Terminal) -> anyhow::Result<Exit> {
     });
     session.worst(&args.worst, &question)?;
     let file = session.result(&question, &session.ask(&question)?)?;
-    let file = session.answer(
-        terminal,
-        &[skip_dead(args.skip_dead), worst(&args.worst)].concat(),
-        file,
-    )?;
+    let file = session.answer(terminal, file)?;
     let exit = requirement(&file, question.require(), |lambda| lambda);
     Ok(unless_weaker(&file, exit))
 }

@@ -42,3 +42,4 @@ pub mod sweep;
 pub mod terminal;
 pub mod thrust;
 pub mod tilt;
+mod told;

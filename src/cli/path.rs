@@ -5,16 +5,16 @@ use super::{
     cracks,
     exit::Exit,
     kept,
-    output::Sink,
     question::{Depicted, Session},
     terminal::Terminal,
+    told::Told,
 };
 use anyhow::{Context, bail};
 use voussoir::{
     analysis::{ControlPoint, PushOptions, Question, SettleOptions},
     path::saved::SavedPose,
     proof::{self, path::PathStatus},
-    report::{path, view::frames},
+    report::view::frames,
 };
 
 pub fn settle(args: &Settle, terminal: &Terminal) -> anyhow::Result<Exit> {
@@ -28,7 +28,7 @@ pub fn settle(args: &Settle, terminal: &Terminal) -> anyhow::Result<Exit> {
         at: args.at.clone(),
         from: begin(&session, &args.curve)?,
     });
-    run(&session, &question, &args.curve, &args.options(), terminal)
+    run(&session, &question, &args.curve, terminal)
 }
 
 pub fn push(args: &Push, terminal: &Terminal) -> anyhow::Result<Exit> {
@@ -40,7 +40,7 @@ pub fn push(args: &Push, terminal: &Terminal) -> anyhow::Result<Exit> {
         at: args.at.clone(),
         from: begin(&session, &args.curve)?,
     });
-    run(&session, &question, &args.curve, &args.options(), terminal)
+    run(&session, &question, &args.curve, terminal)
 }
 
 /// The last pose of the result to begin at, where there is one: of a result that is verified against
@@ -71,25 +71,16 @@ fn run(
     session: &Session,
     question: &Question,
     curve: &Curve,
-    own: &[String],
     terminal: &Terminal,
 ) -> anyhow::Result<Exit> {
-    let open = |path: &Option<std::path::PathBuf>| {
-        path.as_deref().map(|p| Sink::open(Some(p))).transpose()
-    };
-    let (csv, chart) = (open(&curve.csv)?, open(&curve.chart)?);
+    let told = Told::open(&curve.csv, &curve.chart)?;
     let file = match &curve.keep {
         Some(keep) => kept::ask(session, question, keep)?,
         None => session.result(question, &session.ask(question)?)?,
     };
     let film = if session.is_filmed() { frames(&session.model, &file) } else { Vec::new() };
-    let file = session.answer_seen(terminal, own, Depicted::Scene(film), file)?;
-    if let Some(csv) = csv {
-        csv.write(&path::csv(&file)?)?;
-    }
-    if let Some(chart) = chart {
-        chart.write(&path::chart(&file)?)?;
-    }
+    let file = session.answer_seen(terminal, Depicted::Scene(film), file)?;
+    told.write(&file)?;
     Ok(match file.answer.path().map(|a| a.status) {
         Some(PathStatus::Reached | PathStatus::Vanishes) => Exit::Yes,
         Some(PathStatus::Falls) => Exit::No,

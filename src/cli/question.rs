@@ -24,9 +24,10 @@ use voussoir::{
     proof::{ResultFile, answer::FactorStatus, saved, work::Work},
     question::QuestionKind as Kind,
     report::{
-        json, kinematic, moving, page,
+        chart::Chart,
+        json, page,
         record::Record,
-        stages, state,
+        tell,
         text::{self, Asked, TextOptions},
         view::View,
     },
@@ -40,7 +41,7 @@ pub enum Depicted {
     /// The scene with the evidence of the answer, and what was filmed of a simulation.
     Scene(Vec<Frame>),
     /// The same, with charts of what was filmed.
-    Charted(Vec<Frame>, Vec<page::Chart>),
+    Charted(Vec<Frame>, Vec<Chart>),
     /// Something else.
     Other(Box<View>),
     /// The scene with the evidence of the answer on a page, and this in pictures.
@@ -256,20 +257,14 @@ impl<'a> Session<'a> {
     }
 
     /// Saves a result and prints it; `own` are the verb's own options that change the answer.
-    pub fn answer(
-        &self,
-        terminal: &Terminal,
-        own: &[String],
-        file: ResultFile,
-    ) -> anyhow::Result<ResultFile> {
-        self.answer_seen(terminal, own, Depicted::Scene(Vec::new()), file)
+    pub fn answer(&self, terminal: &Terminal, file: ResultFile) -> anyhow::Result<ResultFile> {
+        self.answer_seen(terminal, Depicted::Scene(Vec::new()), file)
     }
 
     /// As [`Self::answer`], and says what a page shows.
     pub fn answer_seen(
         &self,
         terminal: &Terminal,
-        own: &[String],
         seen: Depicted,
         mut file: ResultFile,
     ) -> anyhow::Result<ResultFile> {
@@ -285,8 +280,7 @@ impl<'a> Session<'a> {
             name if name == "-" => "SCENE".into(),
             name => quoted(&name),
         };
-        let asked =
-            Asked { scene: &scene, options: &[own, &self.common.options()].concat().join(" ") };
+        let asked = Asked { scene: &scene, options: &terminal.again };
         let layout = terminal.layout(&self.common.scene);
         // Said to who reads numbers or pictures alone, too.
         if let Some(words) = text::left_out(&file) {
@@ -309,15 +303,7 @@ impl<'a> Session<'a> {
             view.hides_supports = self.pictures.hides_supports();
             if let Some(report) = &self.report {
                 let text = text::render(&file, asked, report::EVERYTHING, report::layout(layout));
-                let told = [
-                    kinematic::page_chart(&file),
-                    stages::page_chart(&file),
-                    state::page_chart(&file),
-                    moving::page_chart(&file),
-                    page::curve(&file),
-                    page::attempts(&file),
-                ];
-                charts.extend(told.into_iter().flatten());
+                charts.extend(tell::charts(&file).into_iter().chain(tell::attempts(&file)));
                 let command = text::command(&file, asked);
                 let origin = report::origin(&self.common.scene, &self.source.text, command);
                 let from = self.pictures.aspect();

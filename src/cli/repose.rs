@@ -21,6 +21,7 @@ use voussoir::{
         grains::{self, GrainFormat},
         json, page,
         record::Record,
+        tell,
         text::{self, TextOptions},
         view::View,
     },
@@ -111,7 +112,7 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
         let origin = report::origin(&args.common.scene, session.text(), command);
         let model = prepare(&proof.scene.input)?;
         let record = Record::new(&proof, &model, view, session.pictures().aspect(), &origin);
-        let charts = page::attempts(&proof);
+        let charts = tell::attempts(&proof);
         report.write(&page::filed(&words, view, charts.as_slice(), &record)?)?;
     }
     if args.common.json {

@@ -1,11 +1,12 @@
 //! The command, for whoever carries it: parse, dispatch, exit code.
 
 use super::{
+    again,
     args::{Cli, Verb},
     exit::{Exit, TimeIsUp},
     terminal::{self, Terminal},
 };
-use clap::Parser;
+use clap::{CommandFactory, FromArgMatches};
 use std::{ffi::OsString, path::PathBuf, sync::OnceLock};
 
 /// How the program that carries the command keeps to `--max-memory` and to the limit of its control
@@ -28,11 +29,16 @@ static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
 /// ended. It writes to standard output and standard error, and may end the process (`--time-limit`,
 /// memory). Interrupts are left to the system.
 pub fn run(arguments: impl IntoIterator<Item = OsString>, memory: Memory) -> Exit {
-    let arguments = match Cli::try_parse_from(arguments) {
-        Ok(arguments) => arguments,
+    let mut command = Cli::command();
+    let parsed = command.try_get_matches_from_mut(arguments).and_then(|matches| {
+        let again = again::typed(&command, &matches);
+        Ok((Cli::from_arg_matches(&matches)?, again))
+    });
+    let (arguments, again) = match parsed {
+        Ok(parsed) => parsed,
         Err(answer) => return terminal::usage(&answer),
     };
-    let terminal = Terminal::new(arguments.color);
+    let terminal = Terminal::new(arguments.color, again.join(" "));
     if let Err(error) = arguments.max_memory.map_or(Ok(()), memory.limit) {
         terminal::error(&anyhow::Error::msg(error));
         return Exit::Usage;

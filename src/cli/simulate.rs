@@ -90,7 +90,7 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
     let mut file = saved::simulated(&options, &session.scene, &session.model, assessment, outcome)
         .map_err(|e| session.refuse(e))?;
     file.run.doubt = doubt(&answer, &session.model, &session.control());
-    let file = session.answer_seen(terminal, &args.options(), Depicted::Scene(film), file)?;
+    let file = session.answer_seen(terminal, Depicted::Scene(film), file)?;
     // What is proved to fall does not stand because it was seen to.
     let falls = matches!(file.answer.verdict(), Some(Verdict::Unstable | Verdict::Conditional));
     Ok(match file.answer.fate() {

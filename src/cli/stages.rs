@@ -3,23 +3,20 @@
 use super::{
     args::Stages as Arguments,
     exit::Exit,
-    output::Sink,
     question::{Depicted, Session, verdict},
     terminal::Terminal,
+    told::Told,
 };
 use voussoir::{
     analysis::{Answer, Question, StagesOptions},
     proof::{ResultFile, saved, stages::StagesAnswer},
-    report::{stages, view::View},
+    report::view::View,
     verdict::Verdict,
 };
 
 pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
     let session = Session::open(&args.common)?.drawn(&args.pictures, None)?;
-    let open = |path: &Option<std::path::PathBuf>| {
-        path.as_deref().map(|p| Sink::open(Some(p))).transpose()
-    };
-    let (csv, chart) = (open(&args.csv)?, open(&args.chart)?);
+    let told = Told::open(&args.csv, &args.chart)?;
     let question = Question::Stages(StagesOptions {
         law: session.law(),
         remove_each: args.remove_each,
@@ -40,13 +37,8 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
         }
         _ => Depicted::Scene(Vec::new()),
     };
-    let file = session.answer_seen(terminal, &args.options(), seen, file)?;
-    if let Some(csv) = csv {
-        csv.write(&stages::csv(&file)?)?;
-    }
-    if let Some(chart) = chart {
-        chart.write(&stages::chart(&file)?)?;
-    }
+    let file = session.answer_seen(terminal, seen, file)?;
+    told.write(&file)?;
     Ok(file.answer.stages().map_or(Exit::Undecided, exit))
 }
 

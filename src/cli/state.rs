@@ -3,16 +3,15 @@
 use super::{
     args::{Law, State as Arguments},
     exit::Exit,
-    output::Sink,
     question::{Session, verdict},
     terminal::Terminal,
+    told::Told,
 };
 use anyhow::bail;
 use voussoir::{
     analysis::{ControlPoint, Question, StateOptions},
     elastic::PathEnd,
     proof::state::StateAnswer,
-    report::state,
     verdict::Verdict,
 };
 
@@ -23,10 +22,7 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
         );
     }
     let session = Session::open(&args.common)?.drawn(&args.pictures, None)?;
-    let open = |path: &Option<std::path::PathBuf>| {
-        path.as_deref().map(|p| Sink::open(Some(p))).transpose()
-    };
-    let (csv, chart) = (open(&args.csv)?, open(&args.chart)?);
+    let told = Told::open(&args.csv, &args.chart)?;
     let control = args.control.clone().map(|(block, point)| ControlPoint { block, point });
     let question = Question::State(StateOptions {
         quadrature: args.quadrature.into(),
@@ -37,13 +33,8 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
     });
     let answer = session.ask(&question)?;
     let file = session.result(&question, &answer)?;
-    let file = session.answer(terminal, &args.options(), file)?;
-    if let Some(csv) = csv {
-        csv.write(&state::csv(&file)?)?;
-    }
-    if let Some(chart) = chart {
-        chart.write(&state::chart(&file)?)?;
-    }
+    let file = session.answer(terminal, file)?;
+    told.write(&file)?;
     Ok(file.answer.state().map_or(Exit::Undecided, |a| exit(a, args.require)))
 }
 

@@ -5,217 +5,162 @@ use super::{
 };
 use anyhow::{Context, bail};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use serde::Serialize;
 use std::{io::IsTerminal, path::Path};
 use voussoir::{
-    report::{json, page, study as report},
-    study::{self, Known, cross, elastic, extreme, forge, rocking, soak},
+    report::{
+        chart::{self, Chart},
+        json, page, study as report,
+        text::{Layout, Page},
+    },
+    study::{self, Known, elastic, extreme, rocking},
 };
 
 pub fn run(args: &Study, terminal: &Terminal) -> anyhow::Result<Exit> {
     args.keep.as_deref().map_or(Ok(()), claim::written)?;
-    let csv = args.csv.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
-    let sink = args.report.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
-    let printed = pages::is_printed(&args.report);
-    if let Some(folder) = &args.svg
-        && !folder.is_dir()
-    {
-        bail!("{}: there is no such folder", folder.display());
-    }
-    let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
-    if args.quiet || !std::io::stderr().is_terminal() {
-        bar.set_draw_target(ProgressDrawTarget::hidden());
-    }
-    if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos} of {len}, {eta} left") {
-        bar.set_style(style);
-    }
-    let layout = terminal.layout(Path::new("study"));
-    let wide = pages::layout(layout);
-    if let Some(folder) = &args.dump
-        && !folder.is_dir()
-    {
-        bail!("{}: there is no such folder", folder.display());
-    }
-    let random = args.soak.or(args.cross).or(args.forge);
-    if args.keep.is_some() && random.is_none() && !args.extreme {
+    let out = Outputs::open(args, terminal)?;
+    if args.keep.is_some() && !args.extreme {
         bail!(
-            "--keep goes with --soak, --cross, --forge and --extreme: the other studies compare times, which belong to one run"
+            "--keep goes with --extreme: the other studies compare times, which belong to one run"
         );
     }
-    if args.extreme {
-        let cells = extreme::grid();
-        let kept = args.keep.as_deref().map(|path| extreme::keep(path, &cells)).transpose()?;
-        let there = kept.as_ref().map_or(0, |k| k.there.len());
-        taken_up(args, there, cells.len());
-        bar.set_length((cells.len() - there.min(cells.len())) as u64);
-        let found = extreme::run(&cells, kept.as_ref(), |_| bar.inc(1))?;
-        bar.finish_and_clear();
-        if let Some(csv) = csv {
-            csv.write(&report::extreme_csv(&found)?)?;
+    match args {
+        Study { extreme: true, .. } => grid(&out),
+        Study { rocking: true, .. } => {
+            let cases = rocking::cases();
+            out.bar.set_length(rocking::count(&cases) as u64);
+            let points = rocking::rocking(&cases, |_| out.bar.inc(1))?;
+            let chart = || vec![("rocking".to_string(), report::rocking_chart(&points))];
+            out.tell(
+                &points,
+                || report::rocking_csv(&points),
+                chart,
+                || report::rocking_text(&points, out.layout),
+            )
         }
-        if let Some(sink) = &sink {
-            sink.write(&page::extreme(&report::extreme_text(&found, true, wide), &found)?)?;
+        Study { yielding: true, .. } => {
+            let cases = elastic::elastic_cases()?;
+            out.bar.set_length(elastic::elastic_count(&cases) as u64);
+            let points = elastic::elastic(&cases, |_| out.bar.inc(1))?;
+            let chart = || vec![("yielding".to_string(), report::elastic_chart(&points))];
+            out.tell(
+                &points,
+                || report::elastic_csv(&points),
+                chart,
+                || report::elastic_text(&points, out.layout),
+            )
         }
-        if args.json {
-            terminal::print(&json::pretty(&found)?)?;
-        } else if !printed {
-            terminal.page(&report::extreme_text(&found, args.verbose, layout))?;
-        }
-        return Ok(if extreme::count(&found, None).wrong == 0 { Exit::Yes } else { Exit::No });
+        Study { omissions: true, .. } => omissions(&out),
+        _ => methods(&out),
     }
-    if let Some(index) = args.only {
-        let index = index as usize;
-        let scene = if args.soak.is_some() {
-            soak::scene(args.seed, index)?.0
-        } else {
-            cross::scene(args.seed, index)?.0
-        };
-        terminal::print(&json::text(&scene.to_value()?))?;
-        return Ok(Exit::Yes);
+}
+
+/// Where a study goes; opened before the work.
+struct Outputs<'a> {
+    args: &'a Study,
+    terminal: &'a Terminal,
+    csv: Option<Sink>,
+    page: Option<Sink>,
+    bar: ProgressBar,
+    layout: Layout<'a>,
+}
+
+impl<'a> Outputs<'a> {
+    fn open(args: &'a Study, terminal: &'a Terminal) -> anyhow::Result<Self> {
+        let csv = args.csv.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
+        let page = args.report.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
+        if let Some(folder) = &args.svg
+            && !folder.is_dir()
+        {
+            bail!("{}: there is no such folder", folder.display());
+        }
+        let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
+        if args.quiet || !std::io::stderr().is_terminal() {
+            bar.set_draw_target(ProgressDrawTarget::hidden());
+        }
+        if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos} of {len}, {eta} left") {
+            bar.set_style(style);
+        }
+        let layout = terminal.layout(Path::new("study"));
+        Ok(Self { args, terminal, csv, page, bar, layout })
     }
-    if let Some(count) = args.cross {
-        let kept = args.keep.as_deref().map(|path| cross::keep(path, args.seed)).transpose()?;
-        let there = kept
-            .as_ref()
-            .map_or(0, |k| k.there.iter().filter(|s| s.index < count as usize).count());
-        taken_up(args, there, count as usize);
-        bar.set_length(u64::from(count) - there as u64);
-        let list = cross::run(args.seed, count as usize, kept.as_ref(), |_| bar.inc(1))?;
-        bar.finish_and_clear();
-        if let Some(folder) = &args.dump {
-            for (name, scene) in cross::scenes(args.seed, &list) {
-                Sink::open(Some(&folder.join(name)))?.write(&json::text(&scene.to_value()?))?;
+
+    /// Writes what a page shows of it, where one is wanted.
+    fn page(&self, page: impl FnOnce() -> Result<String, serde_json::Error>) -> anyhow::Result<()> {
+        self.page.as_ref().map_or(Ok(()), |sink| sink.write(&page()?))
+    }
+
+    /// Writes its table and its charts, each under its name, and prints it.
+    fn tell<T: Serialize, E: std::error::Error + Send + Sync + 'static>(
+        &self,
+        list: &T,
+        csv: impl FnOnce() -> Result<String, E>,
+        charts: impl FnOnce() -> Vec<(String, Chart)>,
+        text: impl FnOnce() -> Page,
+    ) -> anyhow::Result<Exit> {
+        self.bar.finish_and_clear();
+        if let Some(sink) = &self.csv {
+            sink.write(&csv()?)?;
+        }
+        if let Some(folder) = &self.args.svg {
+            for (name, own) in charts() {
+                let sink = Sink::open(Some(&folder.join(format!("{name}.svg"))))?;
+                sink.write(&chart::file("", &[own])?)?;
             }
         }
-        if let Some(csv) = csv {
-            csv.write(&report::cross_csv(&list)?)?;
+        if self.args.json {
+            terminal::print(&json::pretty(list)?)?;
+        } else if !pages::is_printed(&self.args.report) {
+            self.terminal.page(&text())?;
         }
-        if args.json {
-            terminal::print(&json::pretty(&list)?)?;
-        } else {
-            terminal.page(&report::cross_text(&list, args.seed, args.verbose, layout))?;
-        }
-        return Ok(if list.iter().any(cross::Crossed::is_wrong) { Exit::No } else { Exit::Yes });
+        Ok(Exit::Yes)
     }
-    if let Some(count) = args.forge {
-        let kept = args.keep.as_deref().map(|path| forge::keep(path, args.seed)).transpose()?;
-        let there = kept
-            .as_ref()
-            .map_or(0, |k| k.there.iter().filter(|s| s.index < count as usize).count());
-        taken_up(args, there, count as usize);
-        bar.set_length(u64::from(count) - there as u64);
-        let list = forge::run(args.seed, count as usize, kept.as_ref(), |_| bar.inc(1))?;
-        bar.finish_and_clear();
-        if let Some(folder) = &args.dump {
-            for (name, file) in forge::files(args.seed, &list) {
-                Sink::open(Some(&folder.join(name)))?.write(&json::pretty(&file)?)?;
-            }
-        }
-        if let Some(csv) = csv {
-            csv.write(&report::forge_csv(&list)?)?;
-        }
-        if args.json {
-            terminal::print(&json::pretty(&list)?)?;
-        } else {
-            terminal.page(&report::forge_text(&list, args.seed, args.verbose, layout))?;
-        }
-        return Ok(if list.iter().any(forge::Forged::is_wrong) { Exit::No } else { Exit::Yes });
-    }
-    if let Some(count) = args.soak {
-        let kept = args.keep.as_deref().map(|path| soak::keep(path, args.seed)).transpose()?;
-        let there = kept
-            .as_ref()
-            .map_or(0, |k| k.there.iter().filter(|s| s.index < count as usize).count());
-        taken_up(args, there, count as usize);
-        bar.set_length(u64::from(count) - there as u64);
-        let list = soak::run(args.seed, count as usize, kept.as_ref(), |_| bar.inc(1))?;
-        bar.finish_and_clear();
-        if let Some(csv) = csv {
-            csv.write(&report::soak_csv(&list)?)?;
-        }
-        if args.json {
-            terminal::print(&json::pretty(&list)?)?;
-        } else {
-            terminal.page(&report::soak_text(&list, args.seed, args.verbose, layout))?;
-        }
-        return Ok(if list.iter().any(soak::Soaked::is_wrong) { Exit::No } else { Exit::Yes });
-    }
-    if args.rocking {
-        let cases = rocking::cases();
-        bar.set_length(rocking::count(&cases) as u64);
-        let points = rocking::rocking(&cases, |_| bar.inc(1))?;
-        bar.finish_and_clear();
-        if let Some(csv) = csv {
-            csv.write(&report::rocking_csv(&points)?)?;
-        }
-        if let Some(folder) = &args.svg {
-            Sink::open(Some(&folder.join("rocking.svg")))?
-                .write(&report::rocking_chart(&points)?)?;
-        }
-        if args.json {
-            terminal::print(&json::pretty(&points)?)?;
-        } else {
-            terminal.page(&report::rocking_text(&points, layout))?;
-        }
-        return Ok(Exit::Yes);
-    }
-    if args.yielding {
-        let cases = elastic::elastic_cases()?;
-        bar.set_length(elastic::elastic_count(&cases) as u64);
-        let points = elastic::elastic(&cases, |_| bar.inc(1))?;
-        bar.finish_and_clear();
-        if let Some(csv) = csv {
-            csv.write(&report::elastic_csv(&points)?)?;
-        }
-        if let Some(folder) = &args.svg {
-            Sink::open(Some(&folder.join("yielding.svg")))?
-                .write(&report::elastic_chart(&points)?)?;
-        }
-        if args.json {
-            terminal::print(&json::pretty(&points)?)?;
-        } else {
-            terminal.page(&report::elastic_text(&points, layout))?;
-        }
-        return Ok(Exit::Yes);
-    }
+}
+
+/// The stiff and extreme grid.
+fn grid(out: &Outputs) -> anyhow::Result<Exit> {
+    let cells = extreme::grid();
+    let kept = out.args.keep.as_deref().map(|path| extreme::keep(path, &cells)).transpose()?;
+    let there = kept.as_ref().map_or(0, |k| k.there.len());
+    taken_up(out.args, there, cells.len());
+    out.bar.set_length((cells.len() - there.min(cells.len())) as u64);
+    let found = extreme::run(&cells, kept.as_ref(), |_| out.bar.inc(1))?;
+    let text = |verbose, layout| report::extreme_text(&found, verbose, layout);
+    out.page(|| page::extreme(&text(true, pages::layout(out.layout)), &found))?;
+    out.tell(
+        &found,
+        || report::extreme_csv(&found),
+        Vec::new,
+        || text(out.args.verbose, out.layout),
+    )?;
+    Ok(if extreme::count(&found, None).wrong == 0 { Exit::Yes } else { Exit::No })
+}
+
+/// What leaving things out saves.
+fn omissions(out: &Outputs) -> anyhow::Result<Exit> {
+    let scenes = chosen(&out.args.scenes)?;
+    out.bar.set_length(2 * scenes.len() as u64);
+    let repeat = out.args.repeat.map_or(3, usize::from);
+    let list = study::omissions(&scenes, repeat, || out.bar.inc(1))?;
+    let text = |layout| report::omissions_text(&list, layout);
+    out.page(|| page::omissions(&text(pages::layout(out.layout)), &list))?;
+    let no_table = || Ok::<_, std::convert::Infallible>(String::new());
+    out.tell(&list, no_table, Vec::new, || text(out.layout))
+}
+
+/// Every method over its knob.
+fn methods(out: &Outputs) -> anyhow::Result<Exit> {
+    let args = out.args;
     let scenes = chosen(&args.scenes)?;
-    if args.omissions {
-        bar.set_length(2 * scenes.len() as u64);
-        let list = study::omissions(&scenes, args.repeat.map_or(3, usize::from), || bar.inc(1))?;
-        bar.finish_and_clear();
-        if let Some(sink) = &sink {
-            sink.write(&page::omissions(&report::omissions_text(&list, wide), &list)?)?;
-        }
-        if args.json {
-            terminal::print(&json::pretty(&list)?)?;
-        } else if !printed {
-            terminal.page(&report::omissions_text(&list, layout))?;
-        }
-        return Ok(Exit::Yes);
-    }
-    bar.set_length(study::count(&scenes, args.quick)? as u64);
+    out.bar.set_length(study::count(&scenes, args.quick)? as u64);
     let repeat = args.repeat.map_or(if args.quick { 1 } else { 3 }, usize::from);
-    let points = study::run(&scenes, args.quick, repeat, |_| bar.inc(1))?;
-    bar.finish_and_clear();
-    if let Some(csv) = csv {
-        csv.write(&report::csv(&points)?)?;
-    }
-    if let Some(folder) = &args.svg {
-        for known in &scenes {
-            Sink::open(Some(&folder.join(format!("{}.svg", known.name))))?
-                .write(&report::errors(known.name, &points)?)?;
-        }
-        Sink::open(Some(&folder.join("profile.svg")))?
-            .write(&report::profiles(&points, report::ANSWER)?)?;
-    }
-    if let Some(sink) = &sink {
-        sink.write(&page::study(&report::text(&points, wide), &points)?)?;
-    }
-    if args.json {
-        terminal::print(&json::pretty(&points)?)?;
-    } else if !printed {
-        terminal.page(&report::text(&points, layout))?;
-    }
-    Ok(Exit::Yes)
+    let points = study::run(&scenes, args.quick, repeat, |_| out.bar.inc(1))?;
+    out.page(|| page::study(&report::text(&points, pages::layout(out.layout)), &points))?;
+    let charts = || {
+        let each = scenes.iter().map(|k| (k.name.to_string(), report::errors(k.name, &points)));
+        each.chain([("profile".to_string(), report::profiles(&points))]).collect()
+    };
+    out.tell(&points, || report::csv(&points), charts, || report::text(&points, out.layout))
 }
 
 /// Says how much of the work the file of `--keep` holds already.

@@ -15,15 +15,18 @@ use voussoir::{
 /// How pages look.
 pub struct Terminal {
     color: bool,
+    /// The options of the command that change its answer, as typed.
+    pub again: String,
 }
 
 impl Terminal {
     /// Colour as asked for; by default on a terminal, unless `NO_COLOR` is set
     /// (<https://no-color.org>).
-    pub fn new(color: Color) -> Self {
+    pub fn new(color: Color, again: String) -> Self {
         let set = |name: &str| std::env::var_os(name).is_some_and(|v| !v.is_empty());
         let dumb = std::env::var_os("TERM").is_some_and(|t| t == "dumb");
         Self {
+            again,
             color: match color {
                 Color::Always => true,
                 Color::Never => false,

@@ -20,7 +20,7 @@ pub fn run(args: &Thrust, terminal: &Terminal) -> anyhow::Result<Exit> {
         range: true,
     });
     let answer = session.ask(&question)?;
-    let file = session.answer(terminal, &args.options(), session.result(&question, &answer)?)?;
+    let file = session.answer(terminal, session.result(&question, &answer)?)?;
     let Some(found) = file.answer.thrust() else { return Ok(verdict(file.answer.verdict())) };
     let open = [found.least.status, found.greatest.status].contains(&Outcome::Undecided);
     Ok(unless_weaker(&file, if open { Exit::Undecided } else { Exit::Yes }))

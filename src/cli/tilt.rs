@@ -18,7 +18,7 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
         skip_dead: args.skip_dead,
     });
     let file = session.result(&question, &session.ask(&question)?)?;
-    let file = session.answer(terminal, &args.options(), file)?;
+    let file = session.answer(terminal, file)?;
     let exit = requirement(&file, question.require(), |lambda| lambda.atan().to_degrees());
     Ok(unless_weaker(&file, exit))
 }

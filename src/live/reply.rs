@@ -9,7 +9,7 @@ use crate::{
     proof::{saved, work::Work},
     question::QuestionKind as Kind,
     report::{
-        kinematic, page,
+        page, tell,
         text::{self, Asked, Layout, TextOptions},
         view::{View, frames},
     },
@@ -100,8 +100,7 @@ pub fn answer(
     let mut words = text::render(&result, Asked { scene: &name, options: "" }, EVERYTHING, layout);
     // Commands ask about the file, which may say something else.
     words.drop_row("next");
-    let charts: Vec<_> =
-        [kinematic::page_chart(&result), page::curve(&result)].into_iter().flatten().collect();
+    let charts = tell::charts(&result);
     let about = json!({
         "revision": job.revision, "epoch": job.epoch, "question": question.word(),
         "law": law.map_or("", word), "seconds": ready.start.elapsed().as_secs_f64(),

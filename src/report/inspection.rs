@@ -15,6 +15,7 @@ use model::{
 use scene::{Friction, Scene, Train};
 use schemars::{JsonSchema, generate::SchemaSettings};
 use serde::Serialize;
+use serde_with::skip_serializing_none;
 
 /// The resolved scene.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -64,16 +65,14 @@ struct Contact<'a> {
 
 /// A member: its amounts act along these legs, each on the second block and oppositely on the first
 /// (the ground where there is none).
+#[skip_serializing_none]
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 struct Joined<'a> {
     id: &'a str,
     kind: MemberKind,
     legs: Vec<Pull>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     least: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     greatest: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     friction: Option<f64>,
 }
 
@@ -86,22 +85,16 @@ struct Pull {
 }
 
 /// Strengths that a joint does not have are left out.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 struct Law<'a> {
     friction: &'a Friction,
-    #[serde(skip_serializing_if = "Option::is_none")]
     cohesion: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     tension: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     compression: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     pore_pressure: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     rolling_arm: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     normal_stiffness: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     shear_stiffness: Option<f64>,
 }
 

@@ -4,8 +4,10 @@
 #![warn(missing_docs)]
 
 mod cells;
+pub mod chart;
 pub mod contacts;
 pub mod drawing;
+mod error;
 pub mod gltf;
 pub mod grains;
 pub mod ground;
@@ -14,21 +16,17 @@ pub mod imported;
 pub mod inspection;
 pub mod json;
 pub mod keys;
-pub mod kinematic;
-pub mod moving;
 pub mod obj;
 pub mod page;
-pub mod path;
-mod plot;
 pub mod record;
-pub mod stages;
-pub mod state;
 pub mod study;
 pub mod sweep;
 pub mod table;
+pub mod tell;
 pub mod text;
 pub mod trajectory;
 pub mod view;
 pub mod vtk;
 
+pub use error::ReportError;
 pub use inspection::Inspection;

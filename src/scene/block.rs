@@ -2,8 +2,10 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 
 /// One rigid block.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BlockSpec {
@@ -15,22 +17,17 @@ pub struct BlockSpec {
     #[serde(default, skip_serializing_if = "is_origin")]
     pub at: [f64; 3],
     /// Rotation of the block about the origin of its frame, applied before `at`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rotation_deg: Option<Rotation>,
     /// Whether the block is held in place.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub support: bool,
     /// Name of a material.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
     /// Density, kg/m³; overrides the material's.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub density: Option<f64>,
     /// Mass, kg; overrides density × volume.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mass: Option<f64>,
     /// Centre of mass in the block's own frame, m; overrides the centroid of the shape.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub centroid: Option<[f64; 3]>,
 }
 

@@ -3,8 +3,10 @@
 use super::Friction;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 
 /// A contact given by hand, for joints that were discretised elsewhere. Detection skips the pair.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct InterfaceSpec {
@@ -17,9 +19,7 @@ pub struct InterfaceSpec {
     /// a plane, and is then turned so that it points from the first block's centre to the second's.
     /// Where a plane is spanned and a normal given, the plane gives the direction and the normal
     /// the side.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub normal: Option<[f64; 3]>,
     /// Friction of this interface; overrides the joint rules.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction: Option<Friction>,
 }

@@ -2,6 +2,7 @@
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
+use serde_with::skip_serializing_none;
 use std::{
     borrow::Cow,
     collections::{BTreeMap, btree_map::Entry},
@@ -9,6 +10,7 @@ use std::{
 };
 
 /// What blocks are made of.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Material {
@@ -16,10 +18,8 @@ pub struct Material {
     pub density: f64,
     /// Young's modulus, Pa, of what touches at points: spheres by Hertz. `state` alone asks for it;
     /// rigid where it is left out.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub young: Option<f64>,
     /// Poisson's ratio, above −1 and at most 0.5; given with `young`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub poisson: Option<f64>,
 }
 
@@ -44,77 +44,59 @@ pub struct Joints {
 }
 
 /// The resistance of a joint.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct JointSpec {
     /// Coefficient of friction μ ≥ 0, or `"infinite"` (no sliding).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction: Option<Friction>,
     /// Friction angle in degrees, 0 ≤ φ < 90, in place of `friction`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction_angle_deg: Option<f64>,
     /// Cohesion, Pa: shear resistance without any pressure. Default 0.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cohesion: Option<f64>,
     /// Tensile strength, Pa. Default 0. Beyond cohesion / friction it has no effect.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tension: Option<f64>,
     /// Compressive strength, Pa; crushing is excluded where it is left out.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub compression: Option<f64>,
     /// Pressure of the water in the joint, Pa. Default 0.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pore_pressure: Option<f64>,
     /// Rolling arm, m, of contacts at points and edges. Default 0.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rolling_arm: Option<f64>,
     /// Pressure by which the joint closes one metre, Pa/m. `state` alone asks for it; the joint is
     /// rigid for all other questions.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub normal_stiffness: Option<f64>,
     /// Shear stress by which its sides move one metre along it before it slides, Pa/m. The normal
     /// stiffness where it is left out.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shear_stiffness: Option<f64>,
 }
 
 /// An exception: the joints between two materials, or between two blocks. What it leaves out is as
 /// in the default.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct JointOverride {
     /// Two material names, in either order.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub between: Option<[String; 2]>,
     /// Two block ids, in either order.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub blocks: Option<[String; 2]>,
     /// Coefficient of friction μ ≥ 0, or `"infinite"` (no sliding).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction: Option<Friction>,
     /// Friction angle in degrees, in place of `friction`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction_angle_deg: Option<f64>,
     /// Cohesion, Pa: shear resistance without any pressure.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cohesion: Option<f64>,
     /// Tensile strength, Pa. Beyond cohesion / friction it has no effect.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tension: Option<f64>,
     /// Compressive strength, Pa.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub compression: Option<f64>,
     /// Pressure of the water in the joint, Pa.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pore_pressure: Option<f64>,
     /// Rolling arm, m, of contacts at points and edges.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rolling_arm: Option<f64>,
     /// Pressure by which the joint closes one metre, Pa/m.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub normal_stiffness: Option<f64>,
     /// Shear stress by which its sides move one metre along it before it slides, Pa/m.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shear_stiffness: Option<f64>,
 }
 

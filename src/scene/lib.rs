@@ -55,6 +55,7 @@ pub use train::{Axle, AxleForce, Train};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 use std::collections::BTreeMap;
 
 /// The version of the format, the only value of the key `format`.
@@ -67,6 +68,7 @@ pub enum SceneFormat {
 }
 
 /// A scene: blocks given one by one, by templates, or both; SI units (m, kg, s, N), z up.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
@@ -111,14 +113,12 @@ pub struct Scene {
     #[serde(default, skip_serializing_if = "ContactSpec::is_default")]
     pub contact: ContactSpec,
     /// The earthquakes of the place where it stands. `kinematic` alone asks for them.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub site: Option<Site>,
     /// Stages of construction, in order; the scene itself is all that ever stands. `stages` alone
     /// asks for them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub stages: Vec<StageSpec>,
     /// Axles that drive over the road of a bridge. `limit --moving` alone asks for them.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub train: Option<Train>,
 }
 

@@ -2,6 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 
 /// Loads besides the blocks' own weight.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -33,27 +34,22 @@ pub struct PushingMass {
 
 /// One load: a `force` and/or `moment` on a `block`, or an `acceleration` or `weight` on one block
 /// or all free blocks.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Load {
     /// A name by which stages add and remove it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub id: Option<String>,
     /// The loaded block; every free block where absent (`acceleration` and `weight` only).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub block: Option<String>,
     /// Force, N.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub force: Option<[f64; 3]>,
     /// Moment, N·m.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub moment: Option<[f64; 3]>,
     /// Where the force acts: a point of the scene, m, or `"centroid"` (the default).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at: Option<At>,
     /// Where on the road of a `bridge` template the force presses, in place of `block` and `at`: the
     /// fill spreads it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub road: Option<OnRoad>,
     /// An arm of no weight carries the force from the block to `at`, however far off that lies.
     /// Without it such a force is taken for a mistake.
@@ -65,10 +61,8 @@ pub struct Load {
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub massless: bool,
     /// Body force: mass × this acceleration, m/s².
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub acceleration: Option<[f64; 3]>,
     /// Body force as multiples of the block's own weight.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub weight: Option<[f64; 3]>,
 }
 

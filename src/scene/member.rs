@@ -3,58 +3,49 @@
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
+use serde_with::skip_serializing_none;
 use std::{borrow::Cow, fmt};
 
 /// A member: a name and exactly one kind.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Member {
     /// Unique name.
     pub id: String,
     /// A rod, cable or chain that only pulls.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tie: Option<Line>,
     /// A rod that only pushes.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub strut: Option<Line>,
     /// A rod that pulls and pushes.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bar: Option<Bar>,
     /// A cable over deviators: one tension along several points, without friction at them.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tendon: Option<Tendon>,
     /// A strip bonded to one face of a run of blocks.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub strip: Option<Strip>,
     /// A dowel or key across a joint: shear at a point.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dowel: Option<Dowel>,
     /// Soil behind a face: pressure up to the passive one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub soil: Option<Soil>,
     /// A finger that presses on a point with a force of its own choice, up to its strength.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub grip: Option<Grip>,
     /// The friction of a toothed corner.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub toothing: Option<Toothing>,
 }
 
 /// Where a member ends: at a point of a block, or of the ground.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct End {
     /// The block.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub block: Option<String>,
     /// Where on the block, in scene coordinates, m.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at: Option<[f64; 3]>,
     /// An arm of no weight carries the force from the block to `at`, however far off that lies.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub arm: bool,
     /// A point that does not move, in place of `block` and `at`, m.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ground: Option<[f64; 3]>,
 }
 
@@ -163,16 +154,15 @@ pub struct Soil {
 }
 
 /// A grip: one finger, or several that all press with the same force.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Grip {
     /// The block that is gripped.
     pub block: String,
     /// Where the finger touches it, m.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at: Option<[f64; 3]>,
     /// Direction in which the finger presses, into the block.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub normal: Option<[f64; 3]>,
     /// Several fingers, in place of `at` and `normal`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]

@@ -5,29 +5,28 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 
 /// The site.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Site {
     /// Spectrum of the limit state of safeguarding life (SLV).
     pub slv: Spectrum,
     /// Spectrum of the limit state of preventing collapse (SLC).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slc: Option<Spectrum>,
     /// Behaviour factor of the linear check; 2 where nothing is said.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub q: Option<f64>,
     /// Damping of the mechanism, in percent of the critical one; 5 where nothing is said.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub damping_percent: Option<f64>,
     /// The building, where the mechanism stands above the ground.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub building: Option<Building>,
 }
 
 /// An elastic spectrum of horizontal acceleration (NTC 2018, 3.2.3.2.1). The period at which its
 /// branch of constant velocity begins is given as `t_c`, or by `t_c_star` and `c_c`.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Spectrum {
@@ -38,23 +37,19 @@ pub struct Spectrum {
     /// Soil and topography, S = S_S S_T.
     pub s: f64,
     /// T_C*, s: on rock.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub t_c_star: Option<f64>,
     /// C_C, by which the soil lengthens T_C*.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub c_c: Option<f64>,
     /// T_C, s.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub t_c: Option<f64>,
     /// T_B, s; T_C / 3 where nothing is said.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub t_b: Option<f64>,
     /// T_D, s; 4 a_g / g + 1.6 where nothing is said.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub t_d: Option<f64>,
 }
 
 /// The building in which a mechanism stands above the ground.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Building {
@@ -67,11 +62,9 @@ pub struct Building {
     /// Height of the mechanism's base above the foundation, m.
     pub z: f64,
     /// Damping of the building, in percent of the critical one; 5 where nothing is said.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub damping_percent: Option<f64>,
     /// By how much a floor amplifies at its own period, before the damping of the mechanism counts:
     /// what the Circolare writes as 1.1 ξ^−0.5. It is not computed, for the unit of ξ in it is not
     /// beyond doubt; without it the floor spectrum is known at period 0 alone.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub amplification: Option<f64>,
 }

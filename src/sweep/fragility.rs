@@ -8,6 +8,7 @@ use super::{
 };
 use analysis::Question;
 use serde::Serialize;
+use serde_with::skip_serializing_none;
 
 /// A share of a sample, with its Wilson interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -44,6 +45,7 @@ pub fn wilson(failed: usize, of: usize) -> Proportion {
 }
 
 /// A fragility curve.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Fragility {
     /// What runs along it.
@@ -54,10 +56,8 @@ pub struct Fragility {
     /// Its points: where, and how many failed there.
     pub points: Vec<(f64, Proportion)>,
     /// Under ground that moves: the lognormal curve of most likelihood.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub lognormal: Option<LognormalFit>,
     /// Why there is no such curve, where one was looked for.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub no_lognormal: Option<String>,
 }
 

@@ -7,6 +7,7 @@ use check::ground::Series;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Number, Value};
+use serde_with::skip_serializing_none;
 use std::fmt;
 
 /// The version of the format.
@@ -98,6 +99,7 @@ impl Parameter {
 
 /// One number or word of the scene, and what it takes. Exactly one of `from` and `to`, `values`, `normal`,
 /// `lognormal`.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Vary {
@@ -107,36 +109,26 @@ pub struct Vary {
     /// `/question/rock/ground/scale`.
     pub pointer: String,
     /// What tables and charts call it; the pointer where nothing is said.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     /// Lower end of an interval: evenly spaced on a grid, uniform in a sample.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub from: Option<f64>,
     /// Upper end.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub to: Option<f64>,
     /// These values, each as likely as the others: numbers, or words such as ids of blocks and
     /// names of materials.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub values: Option<Vec<Parameter>>,
     /// Of a record of ground motion: every record in this folder, relative to that of the plan, in
     /// the order of their names. They become the `values`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub folder: Option<String>,
     /// Normal distribution; on a grid the quantiles (k + 1/2) / count.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub normal: Option<Normal>,
     /// Lognormal distribution; on a grid the quantiles (k + 1/2) / count.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub lognormal: Option<Lognormal>,
     /// Grid: so many values.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub count: Option<usize>,
     /// Normal and lognormal: cut off below (truncated distribution).
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub min: Option<f64>,
     /// Normal and lognormal: cut off above.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub max: Option<f64>,
     /// Round to whole numbers, for counts.
     #[serde(skip_serializing_if = "std::ops::Not::not")]

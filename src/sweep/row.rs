@@ -21,6 +21,7 @@ use check::{
 use dynamics::{Fate, ShakenFate};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
+use serde_with::skip_serializing_none;
 
 /// The version of the format.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -148,28 +149,23 @@ fn finite(value: f64) -> Option<f64> {
 }
 
 /// An answer.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RowAnswer {
     /// What became of the question.
     pub status: RowStatus,
     /// The load factor, or the tilt in degrees: with dry friction unless the plan says
     /// `associative`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<f64>,
     /// Lower end of its bracket; of `assess` that of the least unbalance, in multiples of gravity.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lower: Option<f64>,
     /// Upper end. With dry friction that slides it is the bound by associative sliding.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub upper: Option<f64>,
     /// How the value with dry friction was found.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dry: Option<Found>,
     /// The direction of the least tilt.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub toward: Option<[f64; 3]>,
     /// Where the train of the least load factor is, m.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub x: Option<f64>,
 }
 

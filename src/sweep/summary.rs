@@ -8,9 +8,11 @@ use super::{
 };
 use base::tolerance;
 use serde::Serialize;
+use serde_with::skip_serializing_none;
 use std::collections::BTreeMap;
 
 /// A sweep in a few numbers.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Summary {
     /// Rows that are there.
@@ -22,18 +24,14 @@ pub struct Summary {
     /// Rows with a value: what quantiles and influences are of.
     pub valued: usize,
     /// Quantiles of the values that were found.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub quantiles: Option<Quantiles>,
     /// How many failed, of those whose answer tells.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub failed: Option<Proportion>,
     /// What matters, the most first, of the rows with a value.
     pub influence: Vec<Influence>,
     /// The fragility curve, of a sample.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub fragility: Option<Fragility>,
     /// The first row with an error, and its error.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub first_error: Option<(usize, String)>,
     /// Seconds of all rows together.
     pub seconds: f64,

@@ -4,6 +4,7 @@
 use crate::ask;
 use serde_json::{Value, json};
 use std::process::Command;
+use trials::cross::{self, Stranger};
 use voussoir::{
     analysis::{
         Answer, Assessment, Control, Law, LimitOptions, Outcome, Proved, Question, TiltOptions,
@@ -15,7 +16,6 @@ use voussoir::{
     proof::{self, answer::FactorStatus},
     report::text,
     scene::{Scene, read_str},
-    study::cross::{self, Stranger},
     sweep::{RowAnswer, RowStatus},
     verdict::{
         Evidence, Verdict,
@@ -477,14 +477,14 @@ fn a_wall_that_turns_is_followed_to_its_motion() {
     }
 }
 
-/// Scenes in which something slides below the bound, of `study --cross`: 200 loads each.
+/// Scenes in which something slides below the bound, of `trials cross`: 200 loads each.
 #[test]
 #[ignore = "takes an hour: 200 loads on each of fifty scenes"]
 fn under_growing_load_no_verdict_of_fifty_scenes_goes_back() {
     let mut backwards = Vec::new();
     let mut asked = 0;
     for index in 0.. {
-        let (scene, family) = voussoir::study::cross::scene(12, index).unwrap();
+        let (scene, family) = cross::scene(12, index).unwrap();
         let model = ask::model(&scene);
         if asked == 50 {
             break;

@@ -86,10 +86,9 @@ fn naive_scaling_is_solved_and_wrong() {
         assert!(shares.is_sorted(), "{method:?}: {shares:?}");
         assert!(method != StudyMethod::Ladder || shares[2] == 1.0);
     }
-    assert!(
-        report::errors("groove", &points).unwrap().starts_with("<svg")
-            && report::profiles(&points, 1e-6).unwrap().contains("</svg>")
-    );
+    let charts = [report::errors("groove", &points), report::profiles(&points)];
+    let svg = voussoir::report::chart::file("groove", &charts).unwrap();
+    assert!(svg.starts_with("<svg") && svg.ends_with("</svg>"));
     assert_eq!(report::csv(&points).unwrap().lines().count(), points.len() + 1);
 }
 

@@ -15,9 +15,10 @@ use voussoir::{
     dynamics::granular::{Course, Disturbance, Moment, ROUNDS, flow},
     import::{ImportOptions, import_bytes},
     report::{
+        chart,
         grains::{GrainFormat, rows, written},
         heaps::{HeapResult, ReposeFile},
-        page,
+        tell,
     },
     scene::{BlockSpec, FloorKind, GrainKind, Protocol, ProtocolKind, Scene, Shape, Sizes},
     tolerance::GRAIN_GAP,
@@ -33,9 +34,9 @@ fn from(own: &[BlockSpec]) -> Growing<'_> {
 }
 
 /// The charts of the page: what was seen is drawn as it was seen, a line a seed.
-fn charts(protocol: &Protocol, heap: &Heap) -> Vec<page::Chart> {
+fn charts(protocol: &Protocol, heap: &Heap) -> Vec<chart::Chart> {
     let file = ReposeFile::new(protocol, vec![HeapResult::new(heap, None)]);
-    let charts = page::heaps(&file);
+    let charts = tell::heaps(&file);
     let columns: Vec<Vec<[f64; 2]>> = match heap.seen.as_ref().expect("seen") {
         Seen::Drum { course, .. } | Seen::Hopper { course, .. } => vec![course.clone()],
         Seen::Shear { course, .. } => {

@@ -249,7 +249,7 @@ const CIRCLES: &[(&str, usize)] = &[
     ("model", 5),
     ("check", 26),
     ("analysis", 16),
-    ("sweep", 4),
+    ("sweep", 2),
     ("report", 4),
     ("cli", 4),
     ("live", 2),

@@ -13,6 +13,7 @@ use model::interface::{Interface, Model};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 use solve::program::{Statics, StaticsOptions};
 
 /// Cracks that are seen.
@@ -50,6 +51,7 @@ pub enum CrackSide {
 }
 
 /// A movement of a support, and how well it explains the cracks.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Explanation {
     /// The support.
@@ -63,10 +65,8 @@ pub struct Explanation {
     /// Joints that open in the mechanism and are not among the cracks.
     pub unseen: usize,
     /// How far it has gone, m or rad, by least squares over the widths that were measured.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub size: Option<f64>,
     /// What is left of the widths then, over all of them: 0 where they are explained.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub left: Option<f64>,
 }
 

@@ -5,18 +5,18 @@ use base::error::{InputError, JsonPath};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 use std::fmt;
 
 /// How the ground moves: by a pulse or by a record, times a scale; at rest where neither is given.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Given {
     /// A formula.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub pulse: Option<Formula>,
     /// A record: in a plan the name of its file, relative to the folder of the plan; in a result the
     /// record itself.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub record: Option<Recorded>,
     /// It is multiplied by this.
     pub scale: f64,
@@ -56,16 +56,15 @@ pub enum Formula {
 }
 
 /// A sine or half of one: by its duration or by its frequency.
+#[skip_serializing_none]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Wave {
     /// m/s².
     pub acceleration: f64,
     /// s.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub duration: Option<f64>,
     /// Of the full sine, Hz.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frequency: Option<f64>,
 }
 

@@ -11,6 +11,7 @@ use super::{
 use scene::Site;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 use std::f64::consts::TAU;
 
 /// One check: what is met over what is demanded.
@@ -28,6 +29,7 @@ pub struct Check {
 }
 
 /// What the site demands.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Demand {
@@ -36,15 +38,12 @@ pub struct Demand {
     /// The least ratio of the linear checks: a0 against accelerations over q.
     pub linear: f64,
     /// The least ratio of the checks of displacements, on the exact curve and on the straight line.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub displacement: Option<f64>,
     /// The checks.
     pub checks: Vec<Check>,
     /// γ1 of the building, where there is one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gamma_1: Option<f64>,
     /// a_Z, m/s²: the acceleration of the floor, where there is a building; of SLV.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub a_z: Option<f64>,
     /// What is not checked, and why.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]

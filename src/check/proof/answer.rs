@@ -11,6 +11,7 @@ use crate::{
 };
 use schemars::JsonSchema;
 use serde::Serialize;
+use serde_with::skip_serializing_none;
 
 /// An answer. In JSON a verdict, a load factor and a tilt stand by themselves, all others under the
 /// name of what they are about.
@@ -60,41 +61,38 @@ pub struct SimulationAnswer {
 }
 
 /// Does it stand?
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct VerdictAnswer {
     /// The verdict.
     pub verdict: Verdict,
     /// It stands: for which law of sliding. With `associative` forces exist, and whether the loads
     /// produce them was not asked.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub law: Option<Law>,
     /// Bracket of the least unbalance, in multiples of gravity.
     pub unbalance: Bracket,
     /// The part of the scene that decides, where it has several.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub part: Option<Deciding>,
     /// How exactly it is proved; nothing where it is undecided.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub proof: Option<Grade>,
 }
 
 /// How large may the live load grow?
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct LimitAnswer {
     /// The load factor.
     pub load_factor: LoadFactorAnswer,
     /// Whether it stands without its live load, where that was asked.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub verdict: Option<Verdict>,
     /// The part of the scene that decides the bound, where it has several.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub part: Option<Deciding>,
     /// How exactly the bound is proved; nothing where it is undecided.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub proof: Option<Grade>,
 }
 
 /// At what tilt does it fall?
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct TiltAnswer {
     /// The direction of the tilt.
@@ -104,17 +102,15 @@ pub struct TiltAnswer {
     /// The tilt in degrees.
     pub tilt_deg: LoadFactorAnswer,
     /// Whether it stands level, where that was asked.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub verdict: Option<Verdict>,
     /// The part of the scene that decides the bound, where it has several.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub part: Option<Deciding>,
     /// How exactly the bound is proved; nothing where it is undecided.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub proof: Option<Grade>,
 }
 
 /// A load factor, or a tilt: the one to use, and the bound beside it under its own name.
+#[skip_serializing_none]
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct LoadFactorAnswer {
     /// What became of it.
@@ -122,18 +118,14 @@ pub struct LoadFactorAnswer {
     /// The law of sliding that it holds for.
     pub law: Law,
     /// The value to use; absent where none was found.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<f64>,
     /// Lower end of its bracket. With dry friction that slides it is computed: up to there the
     /// state was seen at rest.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lower: Option<f64>,
     /// Upper end of its bracket. With dry friction that slides the least value at which the state
     /// was seen to move, or else the proved bound.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub upper: Option<f64>,
     /// How the value with dry friction was found, where that was asked.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub found: Option<Found>,
     /// The bound: joints that slide open as well.
     pub associative: Bound,

@@ -15,14 +15,15 @@ use crate::{
 use model::interface::Model;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 use std::sync::{Arc, PoisonError, RwLock};
 
 /// The evidence for a claim.
+#[skip_serializing_none]
 #[derive(Debug, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Certificate {
     /// What it proves; absent where it proves nothing.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub claim: Option<Claim>,
     /// Static side: forces per contact.
     pub forces: Vec<ContactForces>,
@@ -31,7 +32,6 @@ pub struct Certificate {
     pub members: Vec<MemberForce>,
     /// Unbounded: forces at a load factor at which the scene stands. Conditional: the forces
     /// without the pre-stress.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub base: Option<Vec<ContactForces>>,
     /// The same for members.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -166,25 +166,21 @@ impl Certificate {
 }
 
 /// A load factor with dry friction (program D).
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct DryResult {
     /// How it was found.
     pub found: Found,
     /// The part of the scene that moves, where it has several.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub part: Option<Deciding>,
     /// The value, where found.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<f64>,
     /// The greatest load factor at which the state under dry friction was seen at rest, having
     /// rested from the dead load on. Computed, not proved.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rests_at: Option<f64>,
     /// The least load factor at which it was seen to move.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub moves_at: Option<f64>,
     /// How far forces and mechanism are from Coulomb's law.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub natural_map: Option<f64>,
     /// The evidence.
     #[serde(skip)]

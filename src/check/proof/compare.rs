@@ -13,10 +13,14 @@ const SAME: f64 = 1e-9;
 const ROUNDING: f64 = 1e-12;
 /// Numbers that are themselves what is left of cancelling ones, with the size below which they are
 /// rounding: of `unbalance` in multiples of gravity, of residuals in shares of what they are left of.
-const LEFT: [(&str, f64); 3] = [("unbalance", 1e-9), ("residuals", 1e-9), ("natural_map", 1e-6)];
-/// A grade is the size of a rounding error, which another machine has otherwise: as good within this
-/// factor. Larger: a worse proof is called a better one.
+const LEFT: [(&str, f64); 2] = [("unbalance", 1e-9), ("residuals", 1e-9)];
+/// Grades, which are sizes of rounding errors.
+const GRADES: [&str; 2] = ["to_rounding", "natural_map"];
+/// A grade is another one on another machine: as good within this factor. Larger: a worse proof is
+/// called a better one.
 const GRADE: f64 = 4.0;
+/// Grades below this are those of doubles themselves.
+const FINEST: f64 = 1e-15;
 
 /// Where two values differ, as a JSON path from the top; nothing where they agree.
 pub fn first_difference<T: Serialize>(said: &T, here: &T) -> Option<String> {
@@ -92,8 +96,8 @@ impl Compare {
         if a == b {
             return true;
         }
-        if place.ends_with(".to_rounding") {
-            return a.max(b) <= GRADE * a.min(b);
+        if place.rsplit('.').next().is_some_and(|key| GRADES.contains(&key)) {
+            return a.min(b) >= 0.0 && a.max(b) <= GRADE * a.min(b).max(FINEST);
         }
         let is = |(key, _): &&(&str, f64)| place.split('.').any(|part| part == *key);
         let left = LEFT.iter().find(is).map_or(0.0, |l| l.1);
@@ -112,6 +116,7 @@ mod tests {
         let here = json!({
             "a": 1.0, "force": [1e6, 1e-4, 0.0], "word": "stable", "proof": { "to_rounding": 1e-12 },
             "unbalance": { "upper": 1e-15 }, "list": [{ "f": 1e9 }, { "f": 1e-6 }],
+            "natural_map": 1e-7,
         });
         let at = |pointer: &str, value: serde_json::Value| {
             let mut said = here.clone();
@@ -137,6 +142,8 @@ mod tests {
             ("/list", json!([])),
             ("/proof/to_rounding", json!(1e-13)),
             ("/proof", json!("exact")),
+            ("/natural_map", json!(5e-324)),
+            ("/natural_map", json!(-1e-7)),
         ] {
             assert_eq!(
                 at(pointer, value.clone()).as_deref().map(|p| p.starts_with(pointer)),

@@ -15,6 +15,7 @@ use crate::{
 use model::train::Travel;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 use std::sync::Arc;
 
 /// The evidence for the answer to a question.
@@ -99,19 +100,17 @@ pub struct FactorEvidence {
 
 /// Of a load factor with dry friction: where it claims something a proof, and the load factors at
 /// which a state was computed.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DryEvidence {
     /// How it was found.
     pub found: Found,
     /// The value, where found.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<f64>,
     /// The greatest load factor at which the state was seen at rest.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rests_at: Option<f64>,
     /// The least at which it was seen to move.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub moves_at: Option<f64>,
     /// Forces and a mechanism.
     pub certificate: Arc<Certificate>,
@@ -189,16 +188,15 @@ pub struct CriticalEvidence {
 }
 
 /// A value of the scan. Computed.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ScanPoint {
     /// The value.
     pub value: f64,
     /// Its verdict; absent where there is no scene with this value.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub verdict: Option<Verdict>,
     /// Its least unbalance, g, as the mechanism bounds it from below.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unbalance: Option<f64>,
 }
 
@@ -227,16 +225,15 @@ pub struct SideEvidence {
 }
 
 /// Of `thrust`.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ThrustEvidence {
     /// Of the verdict: without one that stands there is no thrust.
     pub standing: Standing,
     /// Of the least and the greatest thrust.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ends: Option<[Arc<Certificate>; 2]>,
     /// The geometric safety factor that was found between the shrunk sections.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub factor: Option<f64>,
     /// Of the verdicts with shrunk sections, by the share of the section that is left.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -306,22 +303,19 @@ pub struct PointEvidence {
 }
 
 /// Of `kinematic`.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct KinematicEvidence {
     /// One a direction of the question, in its order.
     pub directions: Vec<FactorEvidence>,
     /// Of the scene without an earthquake.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dead: Option<Standing>,
     /// The point whose displacement the curve of the worst direction shows.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub control: Option<Control>,
     /// The curve.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub curve: Option<PathEvidence>,
     /// The curve with members.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub curve_with_members: Option<PathEvidence>,
 }
 
@@ -366,6 +360,7 @@ pub struct HeldEvidence {
 }
 
 /// Of `state`.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StateEvidence {
@@ -374,10 +369,8 @@ pub struct StateEvidence {
     /// How the path along the live load ended.
     pub end: PathEnd,
     /// Of the bound on the live load.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bound: Option<FactorEvidence>,
     /// Without a state: of the verdict.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub standing: Option<Standing>,
 }
 

@@ -24,8 +24,10 @@ use nalgebra::Vector3;
 use scene::Scene;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 
 /// The answer about an earthquake towards one direction.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct KinematicAnswer {
     /// Unit direction across gravity towards which the masses are pushed.
@@ -33,28 +35,22 @@ pub struct KinematicAnswer {
     /// α0: the share of all weights that, pushing that way, sets the scene moving.
     pub alpha0: LoadFactorAnswer,
     /// Whether it stands without an earthquake, where that was asked.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub verdict: Option<Verdict>,
     /// The part of the scene that decides the bound on α0, where it has several.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub part: Option<Deciding>,
     /// How exactly that bound is proved; absent where it is undecided.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub proof: Option<Grade>,
     /// Factor of confidence FC.
     pub fc: f64,
     /// The control point of the curve, and by what the equivalent displacement is measured.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub control: Option<Control>,
     /// How far the curve was followed.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub curve: Option<PathAnswer>,
     /// The curve is that of the scene without its members: what lasts once these yield.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub without_members: bool,
     /// How far the curve with members was followed, where the scene has any: they hold up to their
     /// strength, however far it has moved. Limit states are those of `curve`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub curve_with_members: Option<PathAnswer>,
     /// Why there is no curve with members; it stands under `run`.
     #[serde(skip)]
@@ -77,28 +73,22 @@ pub struct Control {
 }
 
 /// What follows from a mechanism, its curve and the site.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct Numbers {
     /// a0 = α0 g / (e* FC), m/s²; absent where α0 was not found.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub a0: Option<f64>,
     /// The same with blocks that move as one counted as one, where that is less.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub a0_of_bodies: Option<f64>,
     /// What of the mass takes part: e*, M* and δ of every mass that moves.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub participation: Option<Participation>,
     /// Whether the joints that the mechanism keeps closed allow another one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unique: Option<Unique>,
     /// δ of the control point, in the measure of the masses' δ.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub control_delta: Option<f64>,
     /// What the curve gives, where it vanishes.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub capacity: Option<Capacity>,
     /// What the site demands.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub demand: Option<Demand>,
 }
 
@@ -200,14 +190,44 @@ pub(super) fn derive(
     o: &KinematicOptions,
     e: &KinematicEvidence,
 ) -> Result<Told, String> {
-    let (scene, model) = (d.scene, d.model);
+    let model = d.model;
     let dead = d.dead(model, e.dead.as_ref());
     let level = dead.as_ref().and_then(|d| d.answer.verdict());
-    let fc = o.fc.unwrap_or(CONFIDENCE);
     let asked = directions(model.assembly.gravity, &o.toward, o.all);
     if e.directions.len() > asked.len() {
         return Err("there is evidence for more directions than were asked for".into());
     }
+    let mut all = towards(d, o, (e, &asked), level)?;
+    all.sort_by(|a, b| governing(&a.direction).total_cmp(&governing(&b.direction)));
+    let several = all.len() > 1;
+    let mut rest = all.into_iter();
+    let mut worst = rest.next().ok_or("there are no directions")?;
+    let [curve, tied] = curves(d, o, e, &mut worst)?;
+    if let Answer::Kinematic(answer) = &worst.direction.answer {
+        d.part("numbers", told_numbers(&answer.numbers));
+    }
+    let Direction { answer, certificate, dry } = worst.direction.clone();
+    let mut told = Told::new(&worst.quake.model, answer, &certificate);
+    told.dry = dry;
+    told.in_words(&worst.quake.model, worst.proven.as_ref());
+    (told.path, told.path_with_members) = (curve, tied);
+    if several {
+        told.directions =
+            std::iter::once(worst.direction).chain(rest.map(|a| a.direction)).collect();
+    }
+    told.dead_load = dead;
+    d.check.claimed = told.answer.proof().is_some();
+    Ok(told)
+}
+
+/// What every direction gives.
+fn towards(
+    d: &mut Derivation,
+    o: &KinematicOptions,
+    (e, asked): (&KinematicEvidence, &[Vector3<f64>]),
+    level: Option<Verdict>,
+) -> Result<Vec<Asked>, String> {
+    let (scene, model, fc) = (d.scene, d.model, o.fc.unwrap_or(CONFIDENCE));
     let nothing = Default::default();
     let mut all = Vec::new();
     for (k, &toward) in asked.iter().enumerate() {
@@ -247,10 +267,17 @@ pub(super) fn derive(
         };
         all.push(Asked { direction, proven: factor.proven, rates, quake });
     }
-    all.sort_by(|a, b| governing(&a.direction).total_cmp(&governing(&b.direction)));
-    let several = all.len() > 1;
-    let mut rest = all.into_iter();
-    let mut worst = rest.next().ok_or("there are no directions")?;
+    Ok(all)
+}
+
+/// The curves of the worst direction, and the numbers that follow from them.
+fn curves(
+    d: &mut Derivation,
+    o: &KinematicOptions,
+    e: &KinematicEvidence,
+    worst: &mut Asked,
+) -> Result<[Option<PathResult>; 2], String> {
+    let (scene, fc) = (d.scene, o.fc.unwrap_or(CONFIDENCE));
     let (mut curve, mut tied) = (None, None);
     if let Answer::Kinematic(answer) = &mut worst.direction.answer {
         let drive = e.control.as_ref().map(|c| drive(&worst.quake, c)).transpose()?;
@@ -286,21 +313,7 @@ pub(super) fn derive(
         }
         .numbers();
     }
-    if let Answer::Kinematic(answer) = &worst.direction.answer {
-        d.part("numbers", told_numbers(&answer.numbers));
-    }
-    let Direction { answer, certificate, dry } = worst.direction.clone();
-    let mut told = Told::new(&worst.quake.model, answer, &certificate);
-    told.dry = dry;
-    told.in_words(&worst.quake.model, worst.proven.as_ref());
-    (told.path, told.path_with_members) = (curve, tied);
-    if several {
-        told.directions =
-            std::iter::once(worst.direction).chain(rest.map(|a| a.direction)).collect();
-    }
-    told.dead_load = dead;
-    d.check.claimed = told.answer.proof().is_some();
-    Ok(told)
+    Ok([curve, tied])
 }
 
 /// The greatest of what follows by arithmetic, for who reads the check.

@@ -12,8 +12,10 @@ use model::{
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 
 /// The force in one member: of the forces that prove the answer, which may not be the only ones.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MemberLine {
@@ -25,13 +27,10 @@ pub struct MemberLine {
     /// force of a finger.
     pub force: f64,
     /// The friction force of a finger, N.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction: Option<f64>,
     /// Its least force, N, where there is one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub least: Option<f64>,
     /// Its greatest force, N, where there is one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub greatest: Option<f64>,
     /// How it carries.
     pub state: MemberState,

@@ -15,8 +15,10 @@ use base::tolerance;
 use model::train::{self, Position, Standing, Travel, Way};
 use schemars::JsonSchema;
 use serde::Serialize;
+use serde_with::skip_serializing_none;
 
 /// The answer about one position of a train; that of a result is the least.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct MovingAnswer {
     /// Which way the train goes.
@@ -28,13 +30,10 @@ pub struct MovingAnswer {
     /// By how much their forces may be multiplied.
     pub load_factor: LoadFactorAnswer,
     /// Whether it stands without the train, where that was asked.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub verdict: Option<Verdict>,
     /// The part of the scene that decides the bound, where it has several.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub part: Option<Deciding>,
     /// How exactly that bound is proved; absent where it is undecided.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub proof: Option<Grade>,
 }
 

@@ -8,6 +8,7 @@ use crate::{
 use base::error::Finding;
 use model::interface::Timings;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 
 /// The version of the format.
 #[derive(
@@ -21,6 +22,7 @@ pub enum PackingFormat {
 }
 
 /// The answer about a packing.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PackingFile {
@@ -39,10 +41,8 @@ pub struct PackingFile {
     /// Every direction asked for.
     pub directions: Vec<PackingDirection>,
     /// How the packing carries its load when level.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fabric: Option<Fabric>,
     /// Why the answer is undecided, where it is.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub doubt: Option<Doubt>,
     /// What the question did not need.
     pub left_out: Vec<String>,
@@ -55,6 +55,7 @@ pub struct PackingFile {
 }
 
 /// One direction.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PackingDirection {
@@ -64,16 +65,12 @@ pub struct PackingDirection {
     pub status: Outcome,
     /// The tilt with joints that open as they slide, an upper bound for dry friction, degrees; 90
     /// where the packing is wedged.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tilt_deg: Option<f64>,
     /// Its bracket, degrees.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bracket_deg: Option<[f64; 2]>,
     /// How the tilt with dry friction was found, where it was asked for.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dry: Option<Found>,
     /// The tilt with dry friction, degrees.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dry_deg: Option<f64>,
     /// Share of the mass of the free grains that has moved, earlier rounds included.
     pub moved: f64,
@@ -83,7 +80,6 @@ pub struct PackingDirection {
     /// first.
     pub moving: Vec<String>,
     /// The part of the packing that loses balance there, where it has several.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub part: Option<Deciding>,
     /// Joints of its mechanism that roll, slide and part.
     pub joints: [usize; 3],

@@ -11,9 +11,11 @@ use base::tolerance;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::Serialize;
+use serde_with::skip_serializing_none;
 use std::sync::Arc;
 
 /// How far it goes.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct PathAnswer {
     /// How it ends.
@@ -21,19 +23,15 @@ pub struct PathAnswer {
     /// The last value of the parameter that is proved: it stands there, or has the load factor of
     /// the last point. Settle: a share of the movement; push: the way of the control point, m.
     /// Absent where nothing is proved.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<f64>,
     /// It falls: at this value it is proved to.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub falls_at: Option<f64>,
     /// It jumps here first: the motion turns back, and what is told of beyond is what it may come to
     /// by a motion that is not followed.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub jumps_at: Option<f64>,
     /// Settle: the least power that the blocks' forces on the supports can have at the start as
     /// these begin to move, J per unit of the parameter. Where one support moves straight by 1 m it
     /// is its least reaction in that direction, N.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub least_reaction: Option<Bracketed>,
     /// Why it was not followed any further; it stands under `run`.
     #[serde(skip)]
@@ -114,12 +112,12 @@ pub struct MovingSupport {
 }
 
 /// A point of the curve: a scene of its own.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct PathPoint {
     /// The parameter.
     pub value: f64,
     /// The load factor, where there is a live load; that of the certificate.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub load_factor: Option<f64>,
     /// The blocks' forces on the supports that move.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -140,7 +138,7 @@ pub struct PathPoint {
     pub proved: Option<Claim>,
     /// Of a load factor with dry friction: the load factor of joints that open as they slide, which
     /// no value passes.
-    #[serde(rename = "bound", default, skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "bound")]
     pub most: Option<f64>,
 }
 

@@ -18,6 +18,7 @@ use scene::Scene;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
+use serde_with::skip_serializing_none;
 use std::ops::Deref;
 
 /// The version of the format.
@@ -59,13 +60,13 @@ pub struct SceneSummary {
 }
 
 /// How an answer came about. Nothing in it is a claim.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Run {
     /// The program's version.
     pub voussoir: String,
     /// Why the answer is undecided, where it is.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub doubt: Option<Doubt>,
     /// Why something is not in the answer, by what is missing.
     #[serde(default, skip_serializing_if = "Why::is_empty")]
@@ -79,7 +80,6 @@ pub struct Run {
     /// Seconds per stage.
     pub timings: Timings,
     /// What it cost, beside the seconds.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub work: Option<Work>,
     /// Every attempt at a program.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -105,20 +105,17 @@ pub struct Run {
 }
 
 /// Why something is not in an answer.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Why {
     /// A path was not followed any further.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub path: Option<String>,
     /// There is no curve.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub no_curve: Option<String>,
     /// There is no curve with members.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub no_curve_with_members: Option<String>,
     /// There is no geometric safety factor.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub without_factor: Option<String>,
     /// Stages are undecided, by their names.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]

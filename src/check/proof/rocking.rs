@@ -23,8 +23,10 @@ use model::interface::Model;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 
 /// The answer about a mechanism on ground that moves.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RockingAnswer {
@@ -39,11 +41,9 @@ pub struct RockingAnswer {
     /// The free blocks that are in it; others touch none of them.
     pub blocks: Vec<String>,
     /// How exactly the load factors are proved, the weaker of both.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub proof: Option<Grade>,
     /// Why the machine is an idealisation; absent where it is exact for rigid blocks that neither
     /// slide nor bounce.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub idealised: Option<String>,
     /// The block whose way is told.
     pub control: String,
@@ -54,20 +54,16 @@ pub struct RockingAnswer {
     /// What became of it.
     pub fate: RockingFate,
     /// When no acceleration to come could bring it back any more, s.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub overturned_at: Option<f64>,
     /// When it first moved, s.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub released_at: Option<f64>,
     /// Where it was farthest.
     pub greatest: RockingPlace,
     /// Where it is at the end, unless it overturned.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub residual: Option<RockingPlace>,
     /// Its impacts.
     pub impacts: Vec<RockingImpact>,
     /// Scales at which its fate flips, where that was asked.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub flips: Option<Vec<RockingFlip>>,
     /// What is said beside.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -75,6 +71,7 @@ pub struct RockingAnswer {
 }
 
 /// A mechanism in one sense.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RockingSense {
@@ -82,10 +79,8 @@ pub struct RockingSense {
     /// where nothing moves that way.
     pub load_factor: Bound,
     /// Small motions about the unstable equilibrium go with exp(± p t): p, 1/s.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frequency: Option<f64>,
     /// The coordinate there, rad.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unstable: Option<f64>,
     /// What is left of the speed at an impact that ends the motion in this sense.
     pub restitution: f64,

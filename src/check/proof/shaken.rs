@@ -20,6 +20,7 @@ use model::interface::Model;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 use std::sync::Arc;
 
 /// Steps × blocks that are run again at most. More: a file that lies keeps a check busy for hours.
@@ -27,6 +28,7 @@ use std::sync::Arc;
 const AFFORDED: usize = 30_000_000;
 
 /// The answer about all blocks on ground that moves.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ShakenAnswer {
@@ -37,10 +39,8 @@ pub struct ShakenAnswer {
     /// What became of it.
     pub fate: ShakenWord,
     /// The first block that overturned or fell.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub overturned: Option<String>,
     /// When, s.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub overturned_at: Option<f64>,
     /// Free blocks in scene order.
     pub blocks: Vec<ShakenBlock>,

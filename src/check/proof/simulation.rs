@@ -8,8 +8,10 @@ use crate::{
 use base::error::{Finding, FindingCode};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 
 /// What was seen in the engine. Computed: who asks it again sees the same.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Seen {
@@ -18,15 +20,12 @@ pub struct Seen {
     /// What became of it.
     pub fate: Fate,
     /// When the first block had fallen, s.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub collapse: Option<f64>,
     /// The runs, the decisive one last.
     pub runs: Vec<Run>,
     /// Beside a verdict that it falls: cosine between the first motion and the mechanism.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub motion: Option<f64>,
     /// Beside a verdict that it stands: the forces between blocks, simulated against computed.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub forces: Option<ForceAgreement>,
     /// The first motion, the blocks that moved farthest first; blocks at rest are left out.
     pub first_motion: Vec<BlockMotion>,
@@ -41,17 +40,16 @@ pub struct Seen {
 }
 
 /// What happened in time, as an answer tells it. Observed, not proved.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Simulation {
     /// What became of it.
     pub fate: Fate,
     /// When the first block had fallen, s.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub collapse: Option<f64>,
     /// The runs, the decisive one last.
     pub runs: Vec<Run>,
     /// Beside the verdict, where there is one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub agreement: Option<Agreement>,
     /// The first motion, the blocks that moved farthest first; blocks at rest are left out.
     pub first_motion: Vec<BlockMotion>,

@@ -29,9 +29,11 @@ use model::{
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::Serialize;
+use serde_with::skip_serializing_none;
 use std::sync::Arc;
 
 /// What is said of all stages.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct StagesAnswer {
     /// The verdict of the worst stage.
@@ -46,25 +48,18 @@ pub struct StagesAnswer {
     /// How many stand in all.
     pub stand: usize,
     /// The stage of the least load factor of its live load, where any has one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub least_load_factor: Option<LeastMargin>,
     /// The stage that falls at the least tilt, in degrees, where any was asked for it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub least_tilt_deg: Option<LeastMargin>,
     /// Of blocks taken out one at a time: those without which the rest stands.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub removable: Option<Vec<String>>,
     /// Of an order: the most blocks that are held at a time; absent where none was found.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub most_held: Option<usize>,
     /// Of an order: with fewer held at a time there is none, as far as the search went.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub least_held: Option<usize>,
     /// Of an order: so many blocks can be held at a time, where that was said.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hands: Option<usize>,
     /// How exactly the verdicts are proved, the weakest of all; absent where one is undecided.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub proof: Option<Grade>,
 }
 
@@ -81,22 +76,22 @@ pub struct LeastMargin {
 }
 
 /// All stages.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct StagesResult {
     /// The stages are the scene without each of its free blocks.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub remove_each: bool,
     /// The stages are those of this order.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub order: Option<Order>,
     /// So many blocks can be held at a time, where that was said.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hands: Option<usize>,
     /// In their order.
     pub list: Vec<StageResult>,
 }
 
 /// One stage.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct StageResult {
     /// Its name.
@@ -110,10 +105,8 @@ pub struct StageResult {
     pub verdict: Told,
     /// Where it stands and that was asked: the load factor of its live load, or else the least
     /// tilt.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub margin: Option<Told>,
     /// Why it has no margin although that was asked: loads that no tilt can turn.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub no_margin: Option<String>,
     /// Where it stands: the forces of its proof on supports and on what it holds. They are one
     /// state of equilibrium among others.

@@ -26,6 +26,7 @@ use model::interface::Model;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 use std::{collections::HashMap, sync::Arc};
 
 /// Balance and laws hold to this, in multiples of what is greatest. More: forces that balance nothing
@@ -33,18 +34,17 @@ use std::{collections::HashMap, sync::Arc};
 const HOLDS: f64 = 1e-8;
 
 /// The answer about joints that yield.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct StateAnswer {
     /// `stable` where the forces of the state balance every block; else the verdict that `assess`
     /// gives, `undecided` where forces exist and no state was found.
     pub verdict: Verdict,
     /// How exactly it is proved that it stands; absent where no state was found.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub proof: Option<Grade>,
     /// Where joints with an area are integrated.
     pub quadrature: Quadrature,
     /// What is left of balance, of Signorini's and of Coulomb's conditions, the worst of all states.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub residuals: Option<Residuals>,
     /// Displacement of every free block under the dead load.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -53,17 +53,14 @@ pub struct StateAnswer {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub joints: Vec<JointAnswer>,
     /// The greatest numbers of them.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub greatest: Option<Greatest>,
     /// Lowest frequencies of small motion about the state under the dead load, Hz, ascending,
     /// contacts as they are; 0 of motions that nothing resists.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub frequencies: Vec<f64>,
     /// Along a live load: how far the path goes.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub load_factor: Option<PathFactor>,
     /// The point whose way the curve shows.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub control: Option<Watched>,
     /// The points of the path, the dead load first.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -168,6 +165,7 @@ pub struct CurvePoint {
 }
 
 /// What happens to a joint, or to a member.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Event {
     /// The load factor at which it has happened.
@@ -175,10 +173,8 @@ pub struct Event {
     /// What.
     pub kind: EventKind,
     /// The joint.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub between: Option<[String; 2]>,
     /// The member.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub member: Option<String>,
 }
 

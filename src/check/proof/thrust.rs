@@ -23,39 +23,36 @@ use base::tolerance;
 use model::{interface::Model, strength::laws::are_dry};
 use schemars::JsonSchema;
 use serde::Serialize;
+use serde_with::skip_serializing_none;
 use std::sync::Arc;
 
 /// The range of the thrust on a support, or of the force in a member.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ThrustAnswer {
     /// The support.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub support: Option<String>,
     /// Unit direction of the thrust, or of the shear of a dowel.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub direction: Option<[f64; 3]>,
     /// The member whose force is meant, in place of a support.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub member: Option<String>,
     /// Its least value.
     pub least: Bound,
     /// Its greatest value.
     pub greatest: Bound,
     /// The geometric safety factor.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub geometric_factor: Option<Factor>,
 }
 
 /// A geometric safety factor.
+#[skip_serializing_none]
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Factor {
     /// The factor, where there is one; it is beyond `lower` otherwise.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<f64>,
     /// With sections shrunk by this it stands.
     pub lower: f64,
     /// With sections shrunk by this it falls.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub upper: Option<f64>,
 }
 
@@ -79,15 +76,14 @@ pub struct ThrustResult {
 }
 
 /// A section with the lines of thrust through it.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ThrustSection {
     /// The two blocks.
     pub between: [String; 2],
     /// At the least thrust, where found.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub least: Option<Line>,
     /// At the greatest.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub greatest: Option<Line>,
 }
 

@@ -21,9 +21,11 @@ use base::error::Finding;
 use model::interface::Model;
 use schemars::JsonSchema;
 use serde::Serialize;
+use serde_with::skip_serializing_none;
 use std::sync::Arc;
 
 /// What is told: the answer, and what stands beside it.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Told {
     /// The answer to the question; of a tilt in several directions, of a train on its way the least.
@@ -36,47 +38,41 @@ pub struct Told {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub directions: Vec<Direction>,
     /// Whether it stands under its dead load alone, where that was asked as well.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dead_load: Option<Direction>,
     /// The load factor with dry friction.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dry: Option<DryResult>,
     /// What the state under dry friction does, where it was computed.
-    #[serde(rename = "state_under_dry_friction", default, skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "state_under_dry_friction")]
     pub motion: Option<StateMotion>,
     /// Critical: the scan and both sides of every flip.
-    #[serde(rename = "search", default, skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "search")]
     pub critical: Option<CriticalResult>,
     /// Thrust: the line of thrust.
-    #[serde(rename = "line_of_thrust", default, skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "line_of_thrust")]
     pub thrust: Option<ThrustResult>,
     /// Settle, push and kinematic: the curve.
-    #[serde(rename = "curve", default, skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "curve")]
     pub path: Option<PathResult>,
     /// Kinematic: the curve with members.
-    #[serde(rename = "curve_with_members", default, skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "curve_with_members")]
     pub path_with_members: Option<PathResult>,
     /// Stages: every one.
-    #[serde(rename = "each_stage", default, skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "each_stage")]
     pub stages: Option<StagesResult>,
     /// State: the bound on the live load.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bound: Option<Direction>,
     /// Rock: the evidence against the direction.
     #[serde(skip)]
     pub against: Option<Arc<Certificate>>,
     /// What happened in time, where it was simulated.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub simulation: Option<Simulation>,
     /// The mechanism in words.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mechanism: Option<MechanismWords>,
     /// The forces in the members of the scene, of the forces that prove the answer.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub members: Vec<MemberLine>,
     /// Contacts that were left out although blocks overlap or nearly touch, where there are such, and
     /// the answer with them closed.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub left_out_contacts: Option<LeftOutContacts>,
     /// What is to be known about the scene.
     #[serde(rename = "warnings", default, skip_serializing_if = "Vec::is_empty")]

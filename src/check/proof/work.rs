@@ -3,8 +3,10 @@
 use super::ResultFile;
 use model::interface::Model;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 
 /// What an answer cost, beside the seconds per stage.
+#[skip_serializing_none]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Work {
@@ -20,10 +22,8 @@ pub struct Work {
     /// Unknowns and rows of the largest program that was tried.
     pub largest: [usize; 2],
     /// Width of the bracket of the answer.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bracket: Option<f64>,
     /// Greatest resident memory of the process so far, bytes; where the system tells it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub peak_memory: Option<u64>,
 }
 

@@ -14,11 +14,15 @@ pub use stages::{MOST_TRIES, StagesOptions};
 pub use state::StateOptions;
 
 use crate::{ground::ShakeOptions, path::saved::SavedPose, rocking::RockOptions, terms::Law};
-use base::error::{InputError, JsonPath};
+use base::{
+    error::{InputError, JsonPath},
+    limits::SCANNED,
+};
 use directions::check_directions;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 
 /// A question with its options.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -137,19 +141,18 @@ pub struct MovingOptions {
 }
 
 /// Options of `tilt`.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct TiltOptions {
     /// How joints slide.
     pub law: Law,
     /// A tilt below this, in degrees, counts as failure.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub require: Option<f64>,
     /// Tip towards these directions.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub toward: Vec<[f64; 3]>,
     /// Tip towards this many directions, evenly spread, the first along x; 8 where nothing is said.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub all: Option<u16>,
     /// Whether it stands level is not asked as well. Rows of a sweep ask it with dry friction only: a
     /// plan has no such key.
@@ -175,19 +178,17 @@ pub struct CriticalOptions {
 }
 
 /// Options of `thrust`.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ThrustOptions {
     /// Whether there must be forces only, or such as the loads produce.
     pub law: Law,
     /// The support; the first that touches a free block where nothing is said.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub support: Option<String>,
     /// Direction of the thrust, outwards where nothing is said; of a dowel's shear.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub direction: Option<[f64; 3]>,
     /// The force in this member in place of a thrust.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub member: Option<String>,
     /// The greatest thrust instead of the least.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
@@ -199,25 +200,25 @@ pub struct ThrustOptions {
 }
 
 /// Options of `repose`.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ReposeOptions {
     /// How grains slide.
     pub law: Law,
     /// An angle below this, in degrees, counts as failure.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub require: Option<f64>,
     /// Tip towards these directions.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub toward: Vec<[f64; 3]>,
     /// Tip towards this many directions, evenly spread, the first along x; 8 where nothing is said.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub all: Option<u16>,
     /// The share of the grains' mass that has to move; 0, the first grain, where nothing is said.
     pub moving_mass: f64,
 }
 
 /// Options of `simulate`.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SimulateOptions {
@@ -228,13 +229,11 @@ pub struct SimulateOptions {
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub fine: bool,
     /// Time to simulate at most, s.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub seconds: Option<f64>,
     /// Simulate until then although the outcome is clear.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub to_the_end: bool,
     /// This factor × the live loads is added.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub load_factor: Option<f64>,
 }
 
@@ -256,27 +255,24 @@ pub struct PushOptions {
 }
 
 /// Options of `kinematic`.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct KinematicOptions {
     /// How joints slide.
     pub law: Law,
     /// A load factor α0 below this counts as failure.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub require: Option<f64>,
     /// Earthquakes towards these directions.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub toward: Vec<[f64; 3]>,
     /// Earthquakes towards this many directions, evenly spread, the first along x; 8 where nothing is
     /// said.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub all: Option<u16>,
     /// The point whose way measures the motion; where nothing is said the centre of mass of the block
     /// next to the centre of all masses that move.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub control: Option<ControlPoint>,
     /// Factor of confidence; 1.35 where nothing is said.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub fc: Option<f64>,
     /// Ways of the control point that become points of the curve, beside others, m.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -322,8 +318,9 @@ impl Question {
             Self::Critical(o) if o.between[0] == o.between[1] => {
                 refuse("between", "the range is empty".into())
             }
-            Self::Critical(o) if o.scan.is_some_and(|n| n < 2) => {
-                refuse("scan", "must be at least 2: both ends of the range".into())
+            Self::Critical(o) if o.scan.is_some_and(|n| !(2..=SCANNED).contains(&n)) => {
+                let text = format!("must be from 2, both ends of the range, to {SCANNED}");
+                refuse("scan", text)
             }
             Self::Critical(_) => Ok(()),
             Self::Simulate(o) if o.fast && o.fine => {

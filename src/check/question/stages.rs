@@ -5,8 +5,10 @@ use crate::terms::Law;
 use base::error::{InputError, JsonPath};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 
 /// Options of `stages`.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct StagesOptions {
@@ -24,18 +26,15 @@ pub struct StagesOptions {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub order: Vec<String>,
     /// So many blocks can be held at a time; any number where nothing is said.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub hands: Option<usize>,
     /// Sets of blocks that the search for the least holds looks at, at most, for every structure that
     /// stands by itself; 5000 where nothing is said.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub tries: Option<usize>,
     /// Tilts towards these directions, where a stage has no live load.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub toward: Vec<[f64; 3]>,
     /// Tilts towards this many directions, evenly spread, the first along x; 8 where nothing is
     /// said.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub all: Option<u16>,
     /// No load factors and no tilts. Rows of a sweep ask for none: a plan has no such key.
     #[serde(skip_serializing_if = "std::ops::Not::not")]

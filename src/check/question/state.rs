@@ -4,8 +4,10 @@ use super::ControlPoint;
 use crate::elastic::Quadrature;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 
 /// Options of `state`.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct StateOptions {
@@ -14,7 +16,6 @@ pub struct StateOptions {
     pub quadrature: Quadrature,
     /// The point whose way along the live load is the curve; where nothing is said the centre of mass
     /// of the block with the greatest live load.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub control: Option<ControlPoint>,
     /// Load factors that become points of the curve, beside others.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -24,7 +25,6 @@ pub struct StateOptions {
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub dead_only: bool,
     /// A load factor below this counts as failure.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub require: Option<f64>,
 }
 

@@ -4,8 +4,10 @@ use crate::ground::Given;
 use base::error::{InputError, JsonPath};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 
 /// Options of `rock`: the mechanism of a scene on ground that moves.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct RockOptions {
@@ -14,21 +16,17 @@ pub struct RockOptions {
     /// How the ground moves.
     pub ground: Given,
     /// The block whose way is told; the one that moves fastest where nothing is said.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub control: Option<RockPoint>,
     /// What is left of the speed at every impact; what conserves momentum where nothing is said.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub restitution: Option<f64>,
     /// Where it begins, at rest, as a part of the unstable equilibrium.
     #[serde(skip_serializing_if = "is_zero")]
     pub from: f64,
     /// It is followed for so many seconds; until it is at rest or has overturned where nothing is
     /// said.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub seconds: Option<f64>,
     /// The scales of the motion between these two at which it begins or ceases to overturn are
     /// looked for. In rows of a sweep the value is then the least at which it overturns.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub scan: Option<[f64; 2]>,
     /// End as soon as it is known whether it overturns. Rows of a sweep do that by themselves: a
     /// plan has no such key.

@@ -3,8 +3,10 @@
 use super::Fate;
 use crate::verdict::Verdict;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 
 /// How far a verdict and a simulation agree.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Agreement {
@@ -15,15 +17,12 @@ pub struct Agreement {
     /// Whether they say the same; absent where one of them is undecided, or the joints have
     /// strengths that the simulation leaves out. A conditional verdict says that it falls, because
     /// the simulation starts without a pre-stress.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub agrees: Option<bool>,
     /// Where both fall: cosine between the first motion and the mechanism, in the metric of the
     /// kinetic energy. 1 is the same motion; a scene with several ways to fall takes the fastest,
     /// the mechanism is the one that proves most.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub motion: Option<f64>,
     /// Where both stand and the contact forces are known.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub forces: Option<ForceAgreement>,
 }
 

@@ -1,6 +1,7 @@
 //! What was tried, as an answer records it.
 
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 
 /// What the engine said. Only ever reported, never decided on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
@@ -44,6 +45,7 @@ impl Engine {
 }
 
 /// A record of one attempt.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct Attempt {
     /// Which program, in which unknowns.
@@ -56,7 +58,6 @@ pub struct Attempt {
     /// The engine's tolerance.
     pub tolerance: f64,
     /// The engine's regularisation, where it has one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub regularization: Option<f64>,
     /// The engine's word.
     pub engine_status: Status,
@@ -67,7 +68,6 @@ pub struct Attempt {
     /// Seconds.
     pub seconds: f64,
     /// The engine's number for the load factor, not recomputed.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub engine_value: Option<f64>,
     /// Recomputed lower end.
     #[serde(deserialize_with = "super::ends::lower")]

@@ -22,6 +22,7 @@ use model::interface::{Interfaces, Model};
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 use scene::Friction;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 
 /// Bins of the angle between contact normals and gravity, each of the same solid angle.
 pub const ANGLE_BINS: usize = 9;
@@ -47,6 +48,7 @@ pub struct Contact {
 }
 
 /// Averages over a packing.
+#[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Fabric {
@@ -79,10 +81,8 @@ pub struct Fabric {
     pub volume: f64,
     /// Mean share of the friction that is used, over the contacts with a limited friction above 0;
     /// absent where there are none.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mobilised: Option<f64>,
     /// Share of these contacts that are about to slide.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sliding: Option<f64>,
 }
 

@@ -21,7 +21,7 @@ pub use pictures::{Pictures, Tables};
 pub use repose::{Asked, Repose};
 pub use simulate::Simulate;
 pub use stages::Stages;
-pub use state::{Quadrature, State};
+pub use state::State;
 pub use study::Study;
 pub use sweep::{Merge, Slurm, Summary, Sweep, SweepStatus, SweepVerb, Task};
 
@@ -183,10 +183,8 @@ pub enum Verb {
     /// Error against run time, per method, on scenes with known answers.
     ///
     /// Each method runs over its knob (the engine's tolerance, facets of friction pyramids, number
-    /// of verdicts, time steps); medians of repeated runs. With --soak and --cross, random scenes
-    /// whose proofs are held against each other; with --forge, false results that must be refused;
-    /// with --extreme, some two thousand stiff and extreme scenes with closed forms instead: exit
-    /// code 1 if any answer is wrong.
+    /// of verdicts, time steps); medians of repeated runs. With --extreme, some two thousand stiff
+    /// and extreme scenes with closed forms instead: exit code 1 if any answer is wrong.
     Study(Study),
     /// Make a scene from a template.
     ///

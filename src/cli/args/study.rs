@@ -24,40 +24,16 @@ pub struct Study {
     pub extreme: bool,
     /// Rocking blocks on ground that moves instead: the mechanism's integrator and the engine on exact
     /// values.
-    #[arg(long, conflicts_with_all = ["scenes", "quick", "repeat", "omissions", "extreme", "random", "keep", "report"])]
+    #[arg(long, conflicts_with_all = ["scenes", "quick", "repeat", "omissions", "extreme", "keep", "report"])]
     pub rocking: bool,
     /// Joints that yield instead: the state with stiffness, springs and dampers relaxed to rest, and the
     /// engine on closed forms.
-    #[arg(long, conflicts_with_all = ["scenes", "quick", "repeat", "omissions", "extreme", "random", "keep", "report", "rocking"])]
+    #[arg(long, conflicts_with_all = ["scenes", "quick", "repeat", "omissions", "extreme", "keep", "report", "rocking"])]
     pub yielding: bool,
-    /// So many random scenes instead: verdicts held against their certificates, against omissions
-    /// and, of a sample, against simulations. Exit code 1 if any two exclude each other.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000_000), group = "random", conflicts_with_all = ["extreme", "omissions", "quick", "svg", "scenes", "repeat"])]
-    pub soak: Option<u32>,
-    /// So many random scenes instead, each asked in several ways that must give one answer: with
-    /// strangers beside it, at the coordinates of a survey, under loads up to its load factor and
-    /// beyond. Exit code 1 if any two proofs exclude each other.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000_000), group = "random", conflicts_with_all = ["extreme", "omissions", "quick", "svg", "scenes", "repeat"])]
-    pub cross: Option<u32>,
-    /// The results of so many random scenes instead, each changed into false claims, some two
-    /// hundred a scene. Exit code 1 if any is called proved.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000_000), group = "random", conflicts_with_all = ["extreme", "omissions", "quick", "svg", "scenes", "repeat"])]
-    pub forge: Option<u32>,
-    /// Which random scenes (--soak, --cross, --forge).
-    #[arg(long, value_name = "SEED", default_value_t = 1, requires = "random")]
-    pub seed: u64,
-    /// Write the scenes of contradictions (--cross), each as it was asked, or the forged results
-    /// that were called proved (--forge) into this folder.
-    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["soak", "only"], requires = "random")]
-    pub dump: Option<PathBuf>,
-    /// Keep every scene in this file as soon as it is asked; the same command takes it up again
-    /// after a kill at any point (--soak, --cross, --forge, --extreme).
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["only", "omissions"], value_parser = output(Written::Lines))]
+    /// Keep every cell in this file as soon as it is asked; the same command takes it up again after
+    /// a kill at any point (--extreme).
+    #[arg(long, value_name = "FILE", conflicts_with = "omissions", value_parser = output(Written::Lines))]
     pub keep: Option<PathBuf>,
-    /// Print this one of the random scenes, to look at it with other commands; nothing is asked
-    /// (--soak, --cross, --forge).
-    #[arg(long, value_name = "NUMBER", requires = "random", conflicts_with_all = ["csv", "json"])]
-    pub only: Option<u32>,
     /// Write every run to this file, comma-separated.
     #[arg(long, value_name = "FILE", value_parser = output(Written::Csv))]
     pub csv: Option<PathBuf>,

@@ -119,121 +119,162 @@ impl Tally {
 
     /// One finding per kind of thing.
     pub fn findings(mut self, assembly: &Assembly) -> Vec<Finding> {
-        let pair =
-            |a: usize, b: usize| format!("{} and {}", assembly.blocks[a].id, assembly.blocks[b].id);
+        let all = [
+            self.closed_gaps(assembly),
+            self.near_misses(assembly),
+            self.neighbours_apart(assembly),
+            self.overlapping(assembly),
+            self.without_a_normal(assembly),
+            self.small_areas(assembly),
+            self.apart(assembly),
+        ];
+        all.into_iter().flatten().collect()
+    }
+
+    /// Gaps and overlaps that were closed.
+    fn closed_gaps(&self, assembly: &Assembly) -> Option<Finding> {
+        if self.closed.count + self.pressed.count == 0 {
+            return None;
+        }
         let tolerance = short(assembly.contact.gap);
-        let mut findings = Vec::new();
-        if self.closed.count + self.pressed.count > 0 {
-            let parts =
-                [(&self.closed, "open gap", "open gaps"), (&self.pressed, "overlap", "overlaps")];
-            let parts: Vec<String> = parts
-                .iter()
-                .filter(|(e, ..)| e.count > 0)
-                .map(|(e, one, many)| {
-                    format!(
-                        "{} {} (up to {} m)",
-                        e.count,
-                        if e.count == 1 { one } else { many },
-                        short(e.greatest)
-                    )
-                })
-                .collect();
-            let text = format!(
-                "closed {}, all within contact.gap ({tolerance} × the smaller block's size) or the warp of the faces",
-                parts.join(" and ")
-            );
-            findings.push(Finding::new(FindingCode::GapClosed, text));
+        let parts =
+            [(&self.closed, "open gap", "open gaps"), (&self.pressed, "overlap", "overlaps")];
+        let parts: Vec<String> = parts
+            .iter()
+            .filter(|(e, ..)| e.count > 0)
+            .map(|(e, one, many)| {
+                format!(
+                    "{} {} (up to {} m)",
+                    e.count,
+                    if e.count == 1 { one } else { many },
+                    short(e.greatest)
+                )
+            })
+            .collect();
+        let text = format!(
+            "closed {}, all within contact.gap ({tolerance} × the smaller block's size) or the warp of the faces",
+            parts.join(" and ")
+        );
+        Some(Finding::new(FindingCode::GapClosed, text))
+    }
+
+    /// Blocks that nearly touch.
+    fn near_misses(&mut self, assembly: &Assembly) -> Option<Finding> {
+        if self.near.is_empty() {
+            return None;
         }
-        if !self.near.is_empty() {
-            self.near.sort_by(|x, y| x.0.gap.total_cmp(&y.0.gap).then((x.1, x.2).cmp(&(y.1, y.2))));
-            let (least, greatest) = (self.near[0].0.gap, self.near[self.near.len() - 1].0.gap);
-            let lean = |angle: Option<f64>| {
-                angle.map(|a| format!(", {}° from parallel", short(a))).unwrap_or_default()
-            };
-            let worst: Vec<String> = self
-                .near
-                .iter()
-                .take(3)
-                .map(|&(x, a, b)| format!("{} ({} m{})", pair(a, b), short(x.gap), lean(x.angle)))
-                .collect();
-            let text = format!(
-                "{} of blocks nearly touch and were left apart: gaps from {} to {} m; nearest: {}. If they should touch, {}",
-                pairs(self.near.len()),
-                short(least),
-                short(greatest),
-                worst.join(", "),
-                remedy(self.near.iter().map(|n| n.0), assembly),
-            );
-            findings.push(Finding::new(FindingCode::NearMiss, text));
+        self.near.sort_by(|x, y| x.0.gap.total_cmp(&y.0.gap).then((x.1, x.2).cmp(&(y.1, y.2))));
+        let (least, greatest) = (self.near[0].0.gap, self.near[self.near.len() - 1].0.gap);
+        let lean = |angle: Option<f64>| {
+            angle.map(|a| format!(", {}° from parallel", short(a))).unwrap_or_default()
+        };
+        let worst: Vec<String> = self
+            .near
+            .iter()
+            .take(3)
+            .map(|&(x, a, b)| {
+                format!("{} ({} m{})", pair(assembly, a, b), short(x.gap), lean(x.angle))
+            })
+            .collect();
+        let text = format!(
+            "{} of blocks nearly touch and were left apart: gaps from {} to {} m; nearest: {}. If they should touch, {}",
+            pairs(self.near.len()),
+            short(least),
+            short(greatest),
+            worst.join(", "),
+            remedy(self.near.iter().map(|n| n.0), assembly),
+        );
+        Some(Finding::new(FindingCode::NearMiss, text))
+    }
+
+    /// Round blocks beside each other.
+    fn neighbours_apart(&mut self, assembly: &Assembly) -> Option<Finding> {
+        if self.neighbours.is_empty() {
+            return None;
         }
-        if !self.neighbours.is_empty() {
-            self.neighbours.sort_by(|x, y| x.0.total_cmp(&y.0).then((x.1, x.2).cmp(&(y.1, y.2))));
-            let (nearest, farthest) =
-                (self.neighbours[0], self.neighbours[self.neighbours.len() - 1]);
-            let text = format!(
-                "{} of round blocks, or of one and a wall, lie next to each other without touching, as grains do: gaps from {} to {} m, more than contact.gap ({tolerance} × the smaller block's size); nearest: {}",
-                pairs(self.neighbours.len()),
-                short(nearest.0),
-                short(farthest.0),
-                pair(nearest.1, nearest.2),
-            );
-            findings.push(Finding::new(FindingCode::NearMiss, text));
+        let tolerance = short(assembly.contact.gap);
+        self.neighbours.sort_by(|x, y| x.0.total_cmp(&y.0).then((x.1, x.2).cmp(&(y.1, y.2))));
+        let (nearest, farthest) = (self.neighbours[0], self.neighbours[self.neighbours.len() - 1]);
+        let text = format!(
+            "{} of round blocks, or of one and a wall, lie next to each other without touching, as grains do: gaps from {} to {} m, more than contact.gap ({tolerance} × the smaller block's size); nearest: {}",
+            pairs(self.neighbours.len()),
+            short(nearest.0),
+            short(farthest.0),
+            pair(assembly, nearest.1, nearest.2),
+        );
+        Some(Finding::new(FindingCode::NearMiss, text))
+    }
+
+    /// Blocks that overlap.
+    fn overlapping(&mut self, assembly: &Assembly) -> Option<Finding> {
+        if self.overlaps.is_empty() {
+            return None;
         }
-        if !self.overlaps.is_empty() {
-            self.overlaps.sort_by(|x, y| y.0.total_cmp(&x.0).then((x.2, x.3).cmp(&(y.2, y.3))));
-            let worst: Vec<String> = self
-                .overlaps
-                .iter()
-                .take(3)
-                .map(|&(d, _, a, b)| format!("{} ({} m)", pair(a, b), short(d)))
-                .collect();
-            let closable: Vec<Apart> = self.overlaps.iter().filter_map(|o| o.1).collect();
-            let close = match closable.len() {
-                0 => String::new(),
-                n if n == self.overlaps.len() => {
-                    format!(
-                        ", or, to close {}, {}",
-                        if n == 1 { "it" } else { "them" },
-                        remedy(closable, assembly)
-                    )
-                }
-                n => format!(", or, to close {n} of them, {}", remedy(closable, assembly)),
-            };
-            let text = format!(
-                "{} of blocks overlap by more than contact.gap ({tolerance} × size), by up to {} m; no contact was made of the overlapping faces. Deepest: {}. Mend the geometry{close}",
-                pairs(self.overlaps.len()),
-                short(self.overlaps[0].0),
-                worst.join(", "),
-            );
-            findings.push(Finding::new(FindingCode::Overlap, text));
+        let tolerance = short(assembly.contact.gap);
+        self.overlaps.sort_by(|x, y| y.0.total_cmp(&x.0).then((x.2, x.3).cmp(&(y.2, y.3))));
+        let worst: Vec<String> = self
+            .overlaps
+            .iter()
+            .take(3)
+            .map(|&(d, _, a, b)| format!("{} ({} m)", pair(assembly, a, b), short(d)))
+            .collect();
+        let closable: Vec<Apart> = self.overlaps.iter().filter_map(|o| o.1).collect();
+        let close = match closable.len() {
+            0 => String::new(),
+            n if n == self.overlaps.len() => {
+                format!(
+                    ", or, to close {}, {}",
+                    if n == 1 { "it" } else { "them" },
+                    remedy(closable, assembly)
+                )
+            }
+            n => format!(", or, to close {n} of them, {}", remedy(closable, assembly)),
+        };
+        let text = format!(
+            "{} of blocks overlap by more than contact.gap ({tolerance} × size), by up to {} m; no contact was made of the overlapping faces. Deepest: {}. Mend the geometry{close}",
+            pairs(self.overlaps.len()),
+            short(self.overlaps[0].0),
+            worst.join(", "),
+        );
+        Some(Finding::new(FindingCode::Overlap, text))
+    }
+
+    /// Blocks that touch along edges or at corners.
+    fn without_a_normal(&self, assembly: &Assembly) -> Option<Finding> {
+        let &(a, b) = self.without_normal.first()?;
+        let text = format!(
+            "{} of blocks touch only along an edge or at a corner, such as {}; such a touch has no definite normal and carries nothing here (usual between diagonal neighbours)",
+            pairs(self.without_normal.len()),
+            pair(assembly, a, b)
+        );
+        Some(Finding::new(FindingCode::ContactIgnored, text))
+    }
+
+    /// Areas that were too small.
+    fn small_areas(&self, assembly: &Assembly) -> Option<Finding> {
+        if self.small.count == 0 {
+            return None;
         }
-        if let Some(&(a, b)) = self.without_normal.first() {
-            let text = format!(
-                "{} of blocks touch only along an edge or at a corner, such as {}; such a touch has no definite normal and carries nothing here (usual between diagonal neighbours)",
-                pairs(self.without_normal.len()),
-                pair(a, b)
-            );
-            findings.push(Finding::new(FindingCode::ContactIgnored, text));
-        }
-        if self.small.count > 0 {
-            let text = format!(
-                "ignored {} contact area{} below contact.min_area ({} × size²), the largest of {} m²",
-                self.small.count,
-                if self.small.count == 1 { "" } else { "s" },
-                short(assembly.contact.min_area),
-                short(self.small.greatest)
-            );
-            findings.push(Finding::new(FindingCode::ContactIgnored, text));
-        }
-        if let Some(&(a, b)) = self.held_apart.first() {
-            let text = format!(
-                "{} of blocks, such as {}, are closer than contact.gap ({tolerance} × size) but held apart by a thin block between them: not joined",
-                pairs(self.held_apart.len()),
-                pair(a, b)
-            );
-            findings.push(Finding::new(FindingCode::ContactIgnored, text));
-        }
-        findings
+        let text = format!(
+            "ignored {} contact area{} below contact.min_area ({} × size²), the largest of {} m²",
+            self.small.count,
+            if self.small.count == 1 { "" } else { "s" },
+            short(assembly.contact.min_area),
+            short(self.small.greatest)
+        );
+        Some(Finding::new(FindingCode::ContactIgnored, text))
+    }
+
+    /// Blocks that a thin one keeps apart.
+    fn apart(&self, assembly: &Assembly) -> Option<Finding> {
+        let &(a, b) = self.held_apart.first()?;
+        let tolerance = short(assembly.contact.gap);
+        let text = format!(
+            "{} of blocks, such as {}, are closer than contact.gap ({tolerance} × size) but held apart by a thin block between them: not joined",
+            pairs(self.held_apart.len()),
+            pair(assembly, a, b)
+        );
+        Some(Finding::new(FindingCode::ContactIgnored, text))
     }
 }
 
@@ -297,6 +338,10 @@ fn round_up(x: f64) -> f64 {
     let up = (x / unit * 1.000001).ceil() * unit;
     // As it is read where somebody takes it over.
     short(up).parse().unwrap_or(up)
+}
+
+fn pair(assembly: &Assembly, a: usize, b: usize) -> String {
+    format!("{} and {}", assembly.blocks[a].id, assembly.blocks[b].id)
 }
 
 #[cfg(test)]

@@ -1,13 +1,10 @@
 //! What all blocks of a scene do on ground that moves: tables and charts of their histories.
 
-use super::{
-    GroundError,
-    chart::{Panel, chart},
-    refused, rocking,
-};
+use super::rocking;
 use crate::{
+    ReportError,
     cells::{Cell, Table},
-    page::{Axis, Chart, Series},
+    chart::{Axis, Chart, Series},
 };
 use analysis::ShakenScene;
 use base::number::short;
@@ -61,19 +58,19 @@ impl ShakenReport<'_> {
     ///
     /// # Errors
     /// Only if memory runs out.
-    pub fn csv(&self) -> Result<String, GroundError> {
+    pub fn csv(&self) -> Result<String, ReportError> {
         let free: Vec<usize> = self.model.assembly.free().collect();
         let mut table = Table::new();
         let head = ["time", "ground_toward", "ground_left", "ground_up"].map(String::from);
         let ids = free.iter().map(|&i| self.id(i).to_string());
-        table.write_record(head.into_iter().chain(ids)).map_err(refused)?;
+        table.write_record(head.into_iter().chain(ids))?;
         for frame in self.frames() {
             let ground = self.motion.at(frame.time);
             let mut row = vec![frame.time, ground.x, ground.y, ground.z];
             row.extend(free.iter().map(|&i| self.over_thickness(frame, i)));
-            table.write_record(row.into_iter().map(Cell::from)).map_err(refused)?;
+            table.write_record(row.into_iter().map(Cell::from))?;
         }
-        table.end().map_err(refused)
+        Ok(table.end()?)
     }
 
     /// Way over thickness against time of the blocks that went farthest.
@@ -85,51 +82,24 @@ impl ShakenReport<'_> {
         self.order().into_iter().take(LINES).map(line).collect()
     }
 
-    /// Way over thickness of the blocks that went farthest, and the ground below, as SVG.
-    ///
-    /// # Errors
-    /// No frames were kept.
-    pub fn chart(&self) -> Result<String, GroundError> {
-        let lines: Vec<Vec<(f64, f64)>> = self.lines().into_iter().map(|l| l.1).collect();
-        let ground = rocking::ground(self.motion, self.end());
-        let upper = Panel { y: "displacement / thickness", lines: &lines };
-        chart(self.name, upper, Panel { y: "ground, m/s²", lines: &[ground] })
-    }
-}
-
-/// The same for a page: the blocks above, the ground below.
-pub fn page_charts(report: &ShakenReport) -> Vec<Chart> {
-    let series = |name: &str, points: &[(f64, f64)], unit: &str| Series {
-        name: name.into(),
-        line: true,
-        points: points.iter().map(|&(x, y)| [Some(x), Some(y)]).collect(),
-        hints: points
-            .iter()
-            .map(|&(x, y)| format!("{name}: {}{unit} at {} s", short(y), short(x)))
-            .collect(),
-        ..Series::default()
-    };
-    let lines = report.lines();
-    if lines.iter().all(|l| l.1.len() < 2) {
-        return Vec::new();
-    }
-    let ground = rocking::ground(report.motion, report.end());
-    vec![
-        Chart {
+    /// Way over thickness of the blocks that went farthest, and the ground below; none where no frames
+    /// were kept.
+    pub fn charts(&self) -> Vec<Chart> {
+        let lines = self.lines();
+        if lines.iter().all(|l| l.1.len() < 2) {
+            return Vec::new();
+        }
+        let line = |(id, points): &(&str, Vec<(f64, f64)>)| {
+            Series::line(*id, points, |x, y| format!("{id}: {} at {} s", short(y), short(x)))
+        };
+        let ways = Chart {
             title: "Ways of the blocks that went farthest".into(),
             x: Axis::new("time, s", false),
             y: Axis::new("displacement / thickness", false),
-            series: lines.iter().map(|(id, points)| series(id, points, "")).collect(),
+            series: lines.iter().map(line).collect(),
             film: true,
             ..Chart::default()
-        },
-        Chart {
-            title: "The ground".into(),
-            x: Axis::new("time, s", false),
-            y: Axis::new("acceleration, m/s²", false),
-            series: vec![series("ground", &ground, " m/s²")],
-            film: true,
-            ..Chart::default()
-        },
-    ]
+        };
+        vec![ways, rocking::ground_chart(self.motion, self.end())]
+    }
 }

@@ -1,6 +1,6 @@
 //! The page that lives: the same picture, filled again and again with what a server says.
 
-use super::{BASE, CHARTS, Chart, PICTURE, SCENE, STYLE, TEMPLATE, facts, html, pack};
+use super::{BASE, CHARTS, Chart, PICTURE, SCENE, STYLE, TEMPLATE, facts, html, pack, packed};
 use crate::{
     text::Page,
     view::{Course, View},
@@ -54,7 +54,7 @@ pub fn piece(
     about["head"] = facts::head(text).into();
     about["facts"] = facts::body(text).into();
     about["view"] = pack::view(view);
-    about["charts"] = json!(charts);
+    about["charts"] = packed(charts);
     html::json(&about)
 }
 

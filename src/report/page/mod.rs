@@ -6,7 +6,6 @@
 //! canvas; without scripts the words are still there. Every string that comes from a scene is
 //! escaped ([`markup`], `html::json`) or set by the script as text, never as markup.
 
-mod chart;
 mod facts;
 mod html;
 mod live;
@@ -15,14 +14,18 @@ mod record;
 mod study;
 mod sweep;
 
-pub use chart::{Axis, Chart, Series, attempts, curve, heaps};
 pub use live::{live, piece};
 pub use study::{extreme, omissions, study};
 pub use sweep::sweep;
 
-use super::{record::Record, text::Page, view::View};
+use super::{
+    chart::{Chart, drawn},
+    record::Record,
+    text::Page,
+    view::View,
+};
 use base::plain::markup;
-use serde_json::json;
+use serde_json::{Value, json};
 
 const TEMPLATE: &str = include_str!("assets/page.html");
 const STYLE: &str = include_str!("assets/page.css");
@@ -62,7 +65,7 @@ pub fn filed(
     charts: &[Chart],
     record: &Record,
 ) -> Result<String, serde_json::Error> {
-    let data = json!({ "view": pack::view(view), "charts": charts });
+    let data = json!({ "view": pack::view(view), "charts": packed(charts) });
     let scripts: Vec<&str> = [BASE, CHARTS].into_iter().chain(SCENE).collect();
     Ok(html::fill(
         TEMPLATE,
@@ -81,13 +84,32 @@ pub fn filed(
     ))
 }
 
+/// Charts for a page: the drawing, and what is said where one points.
+fn packed(charts: &[Chart]) -> Value {
+    let pack = |chart: &Chart| {
+        let own = drawn(chart);
+        let [low, high, from, to] = own.along;
+        let keys = own.keys.into_iter().map(|(name, colour)| {
+            let class = colour.ok().map(|k| format!("c{k}"));
+            json!({ "name": name, "class": class, "rgb": colour.err() })
+        });
+        let film = chart.film.then(|| json!([low, high, from, to]));
+        json!({
+            "title": chart.title, "svg": own.svg, "note": chart.note, "film": film,
+            "spots": own.spots.iter().map(|([x, y], hint)| json!([x, y, hint])).collect::<Vec<_>>(),
+            "keys": keys.collect::<Vec<_>>(), "wide": chart.cells.is_some(),
+        })
+    };
+    charts.iter().map(pack).collect()
+}
+
 /// A page of charts and tables.
 fn tables(
     text: &Page,
     charts: &[Chart],
     tables: &[serde_json::Value],
 ) -> Result<String, serde_json::Error> {
-    let data = json!({ "charts": charts, "tables": tables });
+    let data = json!({ "charts": packed(charts), "tables": tables });
     Ok(html::fill(
         TEMPLATE,
         &[

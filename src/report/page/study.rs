@@ -1,18 +1,18 @@
 //! Pages of studies: error against time on every scene, the performance profile, and tables to
 //! sort.
 
-use super::{Axis, Chart, Series, tables};
-use crate::{study::ANSWER, text::Page};
+use super::tables;
+use crate::{
+    chart::{Axis, Chart, Series},
+    study::chart::{FLOOR, errors, profiles},
+    text::Page,
+};
 use base::number::{seconds, short};
 use serde_json::{Value, json};
 use sweep::study::{
-    Omission, StudyMethod, StudyPoint,
+    Omission, StudyPoint,
     extreme::{CellAnswer, CellQuestion},
-    profile,
 };
-
-/// Errors below this are drawn here: rounding.
-const FLOOR: f64 = 1e-15;
 
 /// The page of a study.
 ///
@@ -62,77 +62,6 @@ pub fn study(text: &Page, points: &[StudyPoint]) -> Result<String, serde_json::E
         "engine says",
     ];
     tables(text, &charts, &[json!({ "title": "Runs", "columns": columns, "rows": rows })])
-}
-
-/// Error against time on one scene, a line per method.
-fn errors(scene: &str, points: &[StudyPoint]) -> Chart {
-    let of = |method: StudyMethod| {
-        let mut own: Vec<&StudyPoint> = points
-            .iter()
-            .filter(|p| p.scene == scene && p.method == method && p.seconds > 0.0)
-            .collect();
-        own.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
-        let known: Vec<(&StudyPoint, f64)> =
-            own.into_iter().filter_map(|p| Some((p, p.error?))).collect();
-        Series {
-            name: method.label().into(),
-            line: true,
-            points: known
-                .iter()
-                .map(|(p, e)| [p.seconds, e.clamp(FLOOR, 10.0)].map(Some))
-                .collect(),
-            hints: known
-                .iter()
-                .map(|(p, e)| {
-                    let knob = if method.knob().is_empty() {
-                        String::new()
-                    } else {
-                        format!(", {} {}", method.knob(), short(p.knob))
-                    };
-                    format!("{}{knob}: error {e:.1e} in {}", method.label(), seconds(p.seconds))
-                })
-                .collect(),
-            ..Series::default()
-        }
-    };
-    Chart {
-        title: scene.into(),
-        x: Axis::new("seconds", true),
-        y: Axis::new("relative error of the load factor", true),
-        series: StudyMethod::ALL.into_iter().map(of).filter(|s| !s.points.is_empty()).collect(),
-        ..Chart::default()
-    }
-}
-
-/// Which share of the scenes a method answers within a multiple of the fastest method's time.
-fn profiles(points: &[StudyPoint]) -> Chart {
-    let ratios: Vec<f64> = (0..=60).map(|k| 10f64.powf(f64::from(k) / 20.0)).collect();
-    let series = profile(points, ANSWER, &ratios).into_iter().map(|(method, shares)| Series {
-        name: method.label().into(),
-        line: true,
-        hints: ratios
-            .iter()
-            .zip(&shares)
-            .map(|(r, s)| {
-                format!(
-                    "{}: {} % of the scenes within {} × the fastest",
-                    method.label(),
-                    short(100.0 * s),
-                    short(*r)
-                )
-            })
-            .collect(),
-        points: ratios.iter().zip(&shares).map(|(r, s)| [*r, *s].map(Some)).collect(),
-        ..Series::default()
-    });
-    Chart {
-        title: format!("Scenes answered to {ANSWER:.0e}"),
-        x: Axis::new("time over that of the fastest method", true),
-        y: Axis::new("share of the scenes", false),
-        series: series.collect(),
-        note: "Performance profile after Dolan and Moré (2002).".into(),
-        ..Chart::default()
-    }
 }
 
 /// The page of what omissions save.

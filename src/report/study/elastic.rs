@@ -3,9 +3,10 @@
 use super::{
     super::{
         cells::{Table, row},
+        chart::Chart,
         text::{Layout, Page, Role},
     },
-    chart::{StudyChartError, dots},
+    chart::dots,
 };
 use base::number::seconds;
 use sweep::study::{ElasticMethod, ElasticPoint};
@@ -80,14 +81,11 @@ pub fn elastic_text(points: &[ElasticPoint], layout: Layout) -> Page {
 }
 
 /// Error against run time, a colour for each method.
-///
-/// # Errors
-/// Nothing has an error.
-pub fn elastic_chart(points: &[ElasticPoint]) -> Result<String, StudyChartError> {
+pub fn elastic_chart(points: &[ElasticPoint]) -> Chart {
     let series = ElasticMethod::ALL.into_iter().map(|method| {
         let own = points.iter().filter(|p| p.method == method);
         let dots = own.filter_map(|p| Some((p.seconds, p.error?)));
         (method.label().to_string(), dots.collect())
     });
-    dots("joints that yield, with closed forms", "seconds", &series.collect::<Vec<_>>())
+    dots("joints that yield, with closed forms", "seconds", series)
 }

@@ -1,18 +1,12 @@
 //! Studies as text and tables.
 
-mod chart;
-mod cross;
+pub(crate) mod chart;
 mod elastic;
-mod forge;
 mod rocking;
-mod soak;
 
-pub use chart::{StudyChartError, errors, profiles};
-pub use cross::{cross_csv, cross_text};
+pub use chart::{errors, profiles};
 pub use elastic::{elastic_chart, elastic_csv, elastic_text};
-pub use forge::{forge_csv, forge_text};
 pub use rocking::{rocking_chart, rocking_csv, rocking_text};
-pub use soak::{soak_csv, soak_text};
 
 use super::{
     cells::{Table, row},

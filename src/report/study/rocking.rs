@@ -3,9 +3,10 @@
 use super::{
     super::{
         cells::{Table, row},
+        chart::Chart,
         text::{Layout, Page, Role},
     },
-    chart::{StudyChartError, dots},
+    chart::dots,
 };
 use base::number::seconds;
 use sweep::study::{RockingMethod, RockingPoint};
@@ -90,14 +91,11 @@ pub fn rocking_text(points: &[RockingPoint], layout: Layout) -> Page {
 }
 
 /// Error against the time of a history, a colour for each method.
-///
-/// # Errors
-/// Nothing has an error.
-pub fn rocking_chart(points: &[RockingPoint]) -> Result<String, StudyChartError> {
+pub fn rocking_chart(points: &[RockingPoint]) -> Chart {
     let series = settings(points).into_iter().map(|(method, knob)| {
         let own = points.iter().filter(|p| p.method == method && p.knob == knob);
         let dots = own.filter_map(|p| Some((p.seconds, p.error?)));
         (name(method, knob), dots.collect())
     });
-    dots("rocking blocks with exact values", "seconds a history", &series.collect::<Vec<_>>())
+    dots("rocking blocks with exact values", "seconds a history", series)
 }

@@ -1,6 +1,6 @@
 //! Sweeps as text, table and chart.
 
-mod chart;
+pub(crate) mod chart;
 pub(crate) mod group;
 mod progress;
 mod table;
@@ -10,7 +10,7 @@ use analysis::Question;
 use serde::Serialize;
 use sweep::{Header, Summary};
 
-pub use chart::{ChartError, Kind, chart};
+pub use chart::{Kind, chart};
 pub use progress::{SweepProgress, progress};
 pub use table::csv;
 pub use text::summary;

@@ -56,7 +56,7 @@ pub fn verification(
         _ => text,
     };
     let text = match file {
-        Some(file) => super::answer::under(file, text),
+        Some(file) => crate::tell::under(file, text),
         None => text,
     };
     page.title(name, text, role);

@@ -1,26 +1,14 @@
 //! Answers as text for people: the answer first, then why, then what next.
 
-mod answer;
 mod bridge;
 mod checked;
-mod critical;
 mod heaps;
-mod kinematic;
-mod left_out;
+pub(crate) mod left_out;
 mod mechanism;
-mod moving;
-mod options;
+pub(crate) mod options;
 mod packing;
-mod page;
-mod path;
-mod rocking;
-mod shaken;
-mod simulation;
-mod stages;
-pub(super) mod state;
+pub(crate) mod page;
 mod template;
-mod thrust;
-mod verdict;
 
 pub use checked::{inspection, verification};
 pub use heaps::heaps;
@@ -31,11 +19,10 @@ pub use packing::packing;
 pub use page::{Layout, Page, Role, Span};
 pub use template::template;
 
+use crate::tell;
 use analysis::Attempt;
 use base::number::{count, seconds};
 use check::proof::{result::ResultFile, work::Work};
-use check::question::QuestionKind;
-use check::verdict::Verdict;
 use solve::Engine;
 
 /// How a question was put, for the commands that may come next.
@@ -53,26 +40,18 @@ const NOTES: usize = 3;
 /// A result as a page.
 pub fn render(file: &ResultFile, asked: Asked, options: TextOptions, layout: Layout) -> Page {
     let mut page = Page::new(layout);
-    answer::title(&mut page, file);
+    tell::title(&mut page, file);
     if options.brief {
         return page;
     }
+    let telling = tell::telling(file);
     page.blank();
-    answer::why(&mut page, file);
+    (telling.why)(&mut page, file);
     page.blank();
     mechanism::rows(&mut page, file, options);
     mechanism::members(&mut page, file, options);
-    answer::directions(&mut page, file, options);
-    answer::part(&mut page, file);
-    critical::rows(&mut page, file, options);
-    thrust::rows(&mut page, file, options);
-    path::rows(&mut page, file, options);
-    kinematic::rows(&mut page, file, options);
-    stages::rows(&mut page, file, options);
-    state::rows(&mut page, file, options);
-    moving::rows(&mut page, file, options);
-    shaken::rows(&mut page, file, options);
-    simulation::rows(&mut page, file, options);
+    (telling.rows)(&mut page, file, options);
+    tell::part(&mut page, file);
     page.row("proof", file.certificate.verified());
     let s = &file.scene.counts;
     page.row(
@@ -100,7 +79,7 @@ pub fn render(file: &ResultFile, asked: Asked, options: TextOptions, layout: Lay
         page.row("attempts", file.run.trace.iter().map(attempt));
     }
     page.blank();
-    next(&mut page, file, asked);
+    page.commands("next", &tell::next(file, asked.scene, &command(file, asked)));
     page
 }
 
@@ -167,55 +146,10 @@ fn attempt(a: &Attempt) -> String {
 /// The command that asks the same again.
 pub fn command(file: &ResultFile, asked: Asked) -> String {
     let scene = asked.scene;
-    let verb = match file.question.kind() {
-        QuestionKind::Assess => "assess",
-        QuestionKind::Limit => "limit",
-        QuestionKind::Moving => "limit",
-        QuestionKind::Tilt => "tilt",
-        QuestionKind::Repose => "repose",
-        QuestionKind::Critical => "critical",
-        QuestionKind::Thrust => "thrust",
-        QuestionKind::Simulate | QuestionKind::Shake => "simulate",
-        QuestionKind::Settle => "settle",
-        QuestionKind::Push => "push",
-        QuestionKind::Kinematic | QuestionKind::Rock => "kinematic",
-        QuestionKind::Stages => "stages",
-        QuestionKind::State => "state",
-    };
+    let verb = tell::telling(file).verb;
     if asked.options.is_empty() {
         format!("voussoir {verb} {scene}")
     } else {
         format!("voussoir {verb} {scene} {}", asked.options)
     }
-}
-
-fn next(page: &mut Page, file: &ResultFile, asked: Asked) {
-    let (scene, again) = (asked.scene, command(file, asked));
-    let look = (format!("voussoir check {scene}"), "mistakes in the scene, near misses, overlaps");
-    let elsewhere = file.critical.is_some()
-        || file.thrust.is_some()
-        || file.stages.is_some()
-        || file.answer.path().is_some_and(|a| a.value.is_some());
-    if file.question.kind() == QuestionKind::Simulate {
-        return page.commands("next", &simulation::next(file, scene, &again));
-    }
-    if file.question.kind() == QuestionKind::Shake {
-        return page.commands("next", &shaken::next(&again));
-    }
-    if file.certificate.claim.is_none() && !elsewhere {
-        return page
-            .commands("next", &[look, (format!("{again} --verbose"), "every attempt at it")]);
-    }
-    let mut list = Vec::new();
-    if file.question.kind() == QuestionKind::Assess {
-        let falls = matches!(file.answer.verdict(), Some(Verdict::Unstable | Verdict::Conditional));
-        list.push(match (falls, file.scene.input.loads.live.is_empty()) {
-            (true, _) => look,
-            (false, true) => (format!("voussoir tilt {scene}"), "at what tilt it falls"),
-            (false, false) => (format!("voussoir limit {scene}"), "how far the live load can grow"),
-        });
-    }
-    list.push((format!("{again} --save result.json"), "keep the answer with its proof"));
-    list.push(("voussoir check result.json".into(), "verify it again, from the scene"));
-    page.commands("next", &list);
 }

@@ -10,10 +10,10 @@ pub struct TextOptions {
 }
 
 /// A list shows this many items unless everything is asked for.
-pub(super) const SHOWN: usize = 6;
+pub(crate) const SHOWN: usize = 6;
 
 /// The first items of a list, and how many there are more.
-pub(super) fn cut(items: &[String], most: usize, options: TextOptions) -> Vec<String> {
+pub(crate) fn cut(items: &[String], most: usize, options: TextOptions) -> Vec<String> {
     // "and 1 more" takes the line that the item itself would.
     let shown = if options.verbose || items.len() <= most + 1 { items.len() } else { most };
     let mut list = items[..shown].to_vec();

@@ -67,7 +67,8 @@ pub struct Page {
 }
 
 impl Page {
-    pub(crate) fn new(layout: Layout) -> Self {
+    /// An empty one.
+    pub fn new(layout: Layout) -> Self {
         Self {
             lines: Vec::new(),
             unnamed: layout.unnamed.to_string(),
@@ -75,7 +76,8 @@ impl Page {
         }
     }
 
-    pub(crate) fn title(&mut self, name: &str, answer: impl Into<String>, role: Role) {
+    /// The first line: what it is about, and the answer.
+    pub fn title(&mut self, name: &str, answer: impl Into<String>, role: Role) {
         let name = printable(if name.is_empty() { &self.unnamed } else { name }).into_owned();
         let answer = span(answer, role);
         let line = if name.is_empty() {
@@ -99,18 +101,20 @@ impl Page {
         });
     }
 
-    pub(crate) fn blank(&mut self) {
+    /// An empty line.
+    pub fn blank(&mut self) {
         self.lines.push(Vec::new());
     }
 
-    pub(crate) fn paragraph(&mut self, text: &str) {
+    /// A sentence or more.
+    pub fn paragraph(&mut self, text: &str) {
         for line in wrap(&printable(text), self.width - 2) {
             self.lines.push(vec![span(format!("  {line}"), Role::Plain)]);
         }
     }
 
     /// A labelled row; further items stand below the first.
-    pub(crate) fn row(&mut self, label: &str, items: impl IntoIterator<Item = String>) {
+    pub fn row(&mut self, label: &str, items: impl IntoIterator<Item = String>) {
         let mut label = label;
         for item in items {
             for line in wrap(&printable(&item), self.width - COLUMN) {
@@ -125,7 +129,7 @@ impl Page {
     }
 
     /// Rows with something to type and what it is good for.
-    pub(super) fn commands(&mut self, label: &str, commands: &[(String, &str)]) {
+    pub(crate) fn commands(&mut self, label: &str, commands: &[(String, &str)]) {
         let commands: Vec<(Cow<str>, &str)> =
             commands.iter().map(|(c, p)| (printable(c), *p)).collect();
         let (room, width) =

@@ -3,6 +3,7 @@
 use super::Profile;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 
 /// A barrel vault: an arch with radial joints drawn out along y, in running bond, on two continuous
 /// supports `springer_left` and `springer_right`.
@@ -10,6 +11,7 @@ use serde::{Deserialize, Serialize};
 /// Strip `i` (from left to right) runs along the vault between two bed joints; its blocks are
 /// `v<i>_<k>` with `k` along y. Every other strip, starting with the second, has half blocks at
 /// both ends.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Barrel {
@@ -20,7 +22,6 @@ pub struct Barrel {
     #[serde(default, skip_serializing_if = "super::is_origin")]
     pub at: [f64; 3],
     /// Name of the material of all blocks.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
     /// Members that join its blocks, named without the prefix, with points about its origin.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -29,29 +30,22 @@ pub struct Barrel {
     #[serde(default, skip_serializing_if = "super::is_default")]
     pub profile: Profile,
     /// Radius of the mid-line, m (circular and pointed).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radius: Option<f64>,
     /// Angle at the centre between the two springing joints (circular, with `radius`); 180 where
     /// absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub embrace_deg: Option<f64>,
     /// Distance of the two centres from the axis, m (pointed, with `radius`).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub eccentricity: Option<f64>,
     /// Span of the mid-line: distance between its ends, m (every profile; then `rise` too). The
     /// clear span is smaller: `intrados_span`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub span: Option<f64>,
     /// Rise of the mid-line: height of its crown above its ends, m (with `span`).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rise: Option<f64>,
     /// Clear span: distance between the ends of the intrados, m, in place of `span` (then
     /// `intrados_rise` too).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub intrados_span: Option<f64>,
     /// Clear rise: height of the crown of the intrados (of its curve, where it is drawn with
     /// chords) above its ends, m (with `intrados_span`).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub intrados_rise: Option<f64>,
     /// Thickness normal to the mid-line, m.
     pub thickness: f64,
@@ -63,6 +57,5 @@ pub struct Barrel {
     pub courses: usize,
     /// Whether it has springers of its own, yes where absent; without them it stands on what else the
     /// scene has there.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub springers: Option<bool>,
 }

@@ -3,6 +3,7 @@
 use super::Profile;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 
 /// A masonry arch bridge in its plane, spans along x, road above, symmetric in y.
 ///
@@ -14,6 +15,7 @@ use serde::{Deserialize, Serialize};
 ///
 /// The fill is no block: its weight is a dead load on every chord of the extrados, its resistance to
 /// being pushed a member `soil` on every one. Skew is left out.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Bridge {
@@ -24,7 +26,6 @@ pub struct Bridge {
     #[serde(default, skip_serializing_if = "super::is_origin")]
     pub at: [f64; 3],
     /// Name of the material of all blocks.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
     /// Members that join its blocks, named without the prefix, with points about its origin.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -37,11 +38,9 @@ pub struct Bridge {
     /// Width of the bridge along y, m.
     pub width: f64,
     /// What lies on the arches.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fill: Option<Fill>,
     /// Whether it has springers of its own, yes where absent; without them it stands on what else the
     /// scene has there.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub springers: Option<bool>,
 }
 
@@ -92,6 +91,7 @@ pub struct BridgePier {
 }
 
 /// What lies on the arches of a bridge.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Fill {
@@ -105,25 +105,20 @@ pub struct Fill {
     /// Passive pressure: at a depth z an arch that moves into the fill meets up to `passive` ×
     /// unit weight × z. None where neither this nor `friction_deg` is given. Active pressure is
     /// left out.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub passive: Option<f64>,
     /// Angle of friction of the fill, degrees, in place of `passive`: half of tan²(45° + φ/2), for
     /// the whole of it needs more movement than arches make.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction_deg: Option<f64>,
     /// How far a load spreads on either side per metre of depth, m; 0.5, 1 horizontally to 2
     /// vertically, where neither this nor `dispersal_deg` is given.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dispersal: Option<f64>,
     /// The angle from the vertical at which a load spreads, degrees, in place of `dispersal`, which is
     /// its tangent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dispersal_deg: Option<f64>,
     /// How it is distributed over the length that it spreads to.
     #[serde(default, skip_serializing_if = "super::is_default")]
     pub distribution: Distribution,
     /// Heavier and stiffer fill, or masonry, over the springings.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub backing: Option<Backing>,
     /// Weight of both parapets per metre of the bridge, N/m.
     #[serde(default, skip_serializing_if = "super::is_zero")]
@@ -149,24 +144,21 @@ pub enum Distribution {
 /// `backing_1_c00`, `backing_1_c01`, … over `pier_1` from below; with `behind` also at the ends, between
 /// extrados and a vertical back, as `backing_left_c00`, … and `backing_right_c00`, … on supports
 /// `abutment_left` and `abutment_right`.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Backing {
     /// Height of its level top above the springings, m; as fill nothing of it counts above the road.
     pub height: f64,
     /// Weight per volume, N/m³, of backing as fill.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unit_weight: Option<f64>,
     /// Passive coefficient of the chords whose middle lies below its top, with the unit weight of the
     /// fill; that of the fill where absent. Of backing as fill.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub passive: Option<f64>,
     /// Name of a material: the backing is masonry of it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub masonry: Option<String>,
     /// How far masonry reaches behind the outer ends of the first and the last springing, m; where absent
     /// there is none at the ends.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub behind: Option<f64>,
 }
 

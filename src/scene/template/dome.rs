@@ -2,6 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 
 /// A spherical dome of rings on a ring of supports, closed by a keystone or open at an oculus; the
 /// centre of the sphere is the origin.
@@ -11,6 +12,7 @@ use serde::{Deserialize, Serialize};
 /// are the bed joints, which lie on cones, met by plane faces that fit each other exactly. Blocks
 /// are `r<ring>_<segment>`, rings from the bottom up, segments counter-clockwise from the x axis;
 /// the supports are `springer_<segment>`, the closing block is `keystone`.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Dome {
@@ -21,7 +23,6 @@ pub struct Dome {
     #[serde(default, skip_serializing_if = "super::is_origin")]
     pub at: [f64; 3],
     /// Name of the material of all blocks.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
     /// Members that join its blocks, named without the prefix, with points about its origin.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -35,21 +36,17 @@ pub struct Dome {
     /// Number of voussoirs in a ring, at least 3.
     pub segments: usize,
     /// Angle between the axis and the lowest bed joint; 90 (a hemisphere) where absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub springing_deg: Option<f64>,
     /// Angle between the axis and the edge of the oculus; where absent the dome is closed by a
     /// keystone as wide as a ring is high.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub oculus_deg: Option<f64>,
     /// Voussoirs that are left out.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub openings: Vec<DomeOpening>,
     /// A drum with a slab upon the edge of the oculus (with `oculus_deg`).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lantern: Option<Lantern>,
     /// Whether it has springers of its own, yes where absent; without them it stands on what else the
     /// scene has there.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub springers: Option<bool>,
 }
 

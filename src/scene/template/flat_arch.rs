@@ -2,9 +2,11 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 
 /// A flat arch (platbande) of voussoirs `v00`, `v01`, … from left to right between the supports
 /// `abutment_left` and `abutment_right`; intrados at z = 0, extrados at z = `height`.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FlatArch {
@@ -15,7 +17,6 @@ pub struct FlatArch {
     #[serde(default, skip_serializing_if = "super::is_origin")]
     pub at: [f64; 3],
     /// Name of the material of all blocks.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
     /// Members that join its blocks, named without the prefix, with points about its origin.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -30,6 +31,5 @@ pub struct FlatArch {
     pub voussoirs: usize,
     /// Depth below mid-height of the point through which all joints pass, m; more than half the
     /// height. Vertical joints where absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub center_depth: Option<f64>,
 }

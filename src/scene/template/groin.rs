@@ -3,6 +3,7 @@
 use super::Profile;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 
 /// A groin (cross) vault over a square bay: two equal barrels along x and y that cross, cut off at the
 /// sides of the bay, the corners of the bay on supports `springer_ne`, `springer_nw`, ….
@@ -11,6 +12,7 @@ use serde::{Deserialize, Serialize};
 /// strips along its barrel, `n_v00`, `n_v01`, …, from one springing to the other; the webs meet in
 /// joints upright below the diagonals. The springing lies at z = 0, the middle of the bay is the
 /// origin.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Groin {
@@ -21,7 +23,6 @@ pub struct Groin {
     #[serde(default, skip_serializing_if = "super::is_origin")]
     pub at: [f64; 3],
     /// Name of the material of all blocks.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
     /// Members that join its blocks, named without the prefix, with points about its origin.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -41,6 +42,5 @@ pub struct Groin {
     pub voussoirs: usize,
     /// Whether it has springers of its own, yes where absent; without them it stands on what else the
     /// scene has there.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub springers: Option<bool>,
 }

@@ -2,9 +2,11 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 
 /// Equal touching spheres `g000`, `g001`, … on a fixed layer `bed00`, …, layer by layer from below.
 /// The centres of the bed lie at z = 0.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Lattice {
@@ -15,7 +17,6 @@ pub struct Lattice {
     #[serde(default, skip_serializing_if = "super::is_origin")]
     pub at: [f64; 3],
     /// Name of the material of all blocks.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
     /// Members that join its blocks, named without the prefix, with points about its origin.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -29,7 +30,6 @@ pub struct Lattice {
     pub layers: usize,
     /// Spheres along a side of the bed; by default one more than there are layers, so that a pile
     /// ends in one sphere.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub side: Option<usize>,
 }
 

@@ -2,6 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 
 /// A wall of two leaves along x with a hollow between them, each in running bond, and courses of
 /// through stones that tie them; on a support `base` below z = 0.
@@ -9,6 +10,7 @@ use serde::{Deserialize, Serialize};
 /// Blocks are `f<course>_<k>` in the front leaf (towards −y), `b<course>_<k>` in the back one, through
 /// stones `t<course>_<k>`. The hollow is empty; what fills it may be given as loads. The left end is
 /// x = 0, the wall is centred on y = 0.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Leaves {
@@ -19,7 +21,6 @@ pub struct Leaves {
     #[serde(default, skip_serializing_if = "super::is_origin")]
     pub at: [f64; 3],
     /// Name of the material of all blocks.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
     /// Members that join its blocks, named without the prefix, with points about its origin.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -34,10 +35,8 @@ pub struct Leaves {
     pub blocks: usize,
     /// Every so many courses, counted from the ground, one is of through stones; without it there
     /// are none.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub through_every: Option<usize>,
     /// Whether it has a support of its own, yes where absent; without it stands on what else the scene
     /// has there.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub base: Option<bool>,
 }

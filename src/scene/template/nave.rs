@@ -3,6 +3,7 @@
 use super::Profile;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 
 /// An arch on two piers: voussoirs `v00`, `v01`, … from left to right, piers of blocks
 /// `pier_left_00`, … from the ground up, on supports `base_left` and `base_right`. With `buttress` the
@@ -10,6 +11,7 @@ use serde::{Deserialize, Serialize};
 ///
 /// The inner faces of the piers are flush with the intrados. The springing lies at z = 0, the axis
 /// is x = 0.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Portal {
@@ -20,7 +22,6 @@ pub struct Portal {
     #[serde(default, skip_serializing_if = "super::is_origin")]
     pub at: [f64; 3],
     /// Name of the material of all blocks.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
     /// Members that join its blocks, named without the prefix, with points about its origin.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -42,11 +43,9 @@ pub struct Portal {
     pub pier: Pier,
     /// Stands against the outer face of each pier: blocks `buttress_left_00`, …, with no more than
     /// contact and friction between them.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub buttress: Option<Pier>,
     /// Whether it has a support of its own, yes where absent; without it stands on what else the scene
     /// has there.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub base: Option<bool>,
 }
 

@@ -2,12 +2,14 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
 
 /// A hollow tower, its outer faces |x| ≤ size/2 and |y| ≤ size/2, on a support `base` below z = 0.
 ///
 /// Every course has four walls, each of which passes one corner and ends at the next; from course to
 /// course they turn the other way round, so that the corners are bonded. Blocks are
 /// `c<course>_<side>_<k>` with the sides `n`, `e`, `s`, `w`.
+#[skip_serializing_none]
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Tower {
@@ -18,7 +20,6 @@ pub struct Tower {
     #[serde(default, skip_serializing_if = "super::is_origin")]
     pub at: [f64; 3],
     /// Name of the material of all blocks.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
     /// Members that join its blocks, named without the prefix, with points about its origin.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -36,7 +37,6 @@ pub struct Tower {
     pub blocks: usize,
     /// Whether it has a support of its own, yes where absent; without it stands on what else the scene
     /// has there.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub base: Option<bool>,
 }
 

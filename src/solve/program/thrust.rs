@@ -7,7 +7,7 @@
 
 use super::{
     BearingCone, Cone, ConicProgram, Positions, Statics, Unknowns,
-    unbalance::{copy, force_cones},
+    unbalance::{copy, force_cones, left_at_most},
 };
 use check::verdict::{Rate, member};
 use model::interface::{Interfaces, Model};
@@ -203,22 +203,5 @@ pub fn endless_thrust(statics: &Statics, objective: &[f64]) -> (ConicProgram, Po
         p.matrix.push(grows, j, *c);
     }
     p.rhs[grows] = -1.0;
-    force_cones(&mut p, statics, 0);
-    for block in &statics.free {
-        let first = p.cone(Cone::SecondOrder(block.rows.len() + 1));
-        p.matrix.push(first, t, -1.0);
-        for (k, row) in block.rows.clone().enumerate() {
-            p.matrix.push(first + 1 + k, forces + row, -1.0);
-        }
-    }
-    (
-        p,
-        Positions {
-            unknowns: Unknowns::Forces,
-            forces: 0,
-            force_count: forces,
-            rates: 0,
-            rate_count: rows,
-        },
-    )
+    left_at_most(p, statics, [forces, t])
 }

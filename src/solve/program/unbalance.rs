@@ -51,6 +51,16 @@ fn in_forces(statics: &Statics, live: LiveLoad) -> (ConicProgram, Positions) {
             p.matrix.push(row, t + 1, statics.live[row]);
         }
     }
+    left_at_most(p, statics, [forces, t])
+}
+
+/// The program with forces in their cones and what is left of every block, which stands behind the
+/// `forces`, at most the unknown `t`.
+pub(super) fn left_at_most(
+    mut p: ConicProgram,
+    statics: &Statics,
+    [forces, t]: [usize; 2],
+) -> (ConicProgram, Positions) {
     force_cones(&mut p, statics, 0);
     for block in &statics.free {
         let first = p.cone(Cone::SecondOrder(block.rows.len() + 1));
@@ -59,16 +69,14 @@ fn in_forces(statics: &Statics, live: LiveLoad) -> (ConicProgram, Positions) {
             p.matrix.push(first + 1 + k, forces + row, -1.0);
         }
     }
-    (
-        p,
-        Positions {
-            unknowns: Unknowns::Forces,
-            forces: 0,
-            force_count: forces,
-            rates: 0,
-            rate_count: rows,
-        },
-    )
+    let positions = Positions {
+        unknowns: Unknowns::Forces,
+        forces: 0,
+        force_count: forces,
+        rates: 0,
+        rate_count: statics.matrix.rows,
+    };
+    (p, positions)
 }
 
 fn in_rates(statics: &Statics, live: LiveLoad) -> (ConicProgram, Positions) {

@@ -8,7 +8,7 @@ mod numbered;
 
 pub(crate) use alone::Alone;
 pub use digest::digest;
-pub(crate) use numbered::{Numbered, numbered};
+pub use numbered::{Numbered, numbered};
 
 use base::{error::RowsError, files, limits, plain};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};

@@ -10,7 +10,7 @@ use std::{
 };
 
 /// A piece that knows its number.
-pub(crate) trait Numbered: Clone + Send + Sync + Serialize + DeserializeOwned {
+pub trait Numbered: Clone + Send + Sync + Serialize + DeserializeOwned {
     /// Its number.
     fn number(&self) -> usize;
 }
@@ -20,7 +20,7 @@ pub(crate) trait Numbered: Clone + Send + Sync + Serialize + DeserializeOwned {
 ///
 /// # Errors
 /// Threads cannot be started, or the file cannot be written.
-pub(crate) fn numbered<T: Numbered>(
+pub fn numbered<T: Numbered>(
     count: usize,
     kept: Option<&Kept<T>>,
     one: impl Fn(usize) -> T + Sync,

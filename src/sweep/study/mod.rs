@@ -3,21 +3,15 @@
 //! [`run`] takes each method over its knob (the engine's tolerance, the number of facets, the
 //! number of bisections) and records what came out, how long it took, and what the engine said
 //! about it. [`extreme`] asks some thousand stiff scenes with closed forms and counts what is
-//! wrong, undecided or loosely bracketed; [`soak`] asks thousands of random ones and looks for
-//! contradictions, and [`cross`] asks each of as many in several ways that must give one answer;
-//! [`forge`] changes their results into false ones, all of which must be refused. [`rocking`] has
-//! blocks on ground that moves; [`elastic`] joints that yield, beside the penalty method.
+//! wrong, undecided or loosely bracketed. [`rocking`] has blocks on ground that moves; [`elastic`]
+//! joints that yield, beside the penalty method.
 
-pub mod cross;
 pub mod elastic;
 pub mod extreme;
-pub mod forge;
 mod known;
 mod method;
 mod omissions;
-pub(crate) mod random;
 pub mod rocking;
-pub mod soak;
 
 pub use elastic::{ElasticCase, ElasticMethod, ElasticPoint, ElasticQuantity};
 pub use known::Known;

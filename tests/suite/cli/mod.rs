@@ -10,7 +10,6 @@ mod next;
 mod pictures;
 mod proofs;
 mod scenes;
-mod study;
 mod verbs;
 mod weakened;
 mod words;

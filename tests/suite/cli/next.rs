@@ -10,7 +10,7 @@ fn the_commands_that_come_next_ask_the_same_question() {
     ));
     assert!(
         text.contains(
-            "block-on-tilting-table.json --toward 1,0 --law associative --save result.json"
+            "block-on-tilting-table.json --law associative --toward 1,0 --save result.json"
         ),
         "{text}"
     );
@@ -34,7 +34,7 @@ fn the_commands_that_come_next_ask_the_same_question() {
     let text = out(&expect(YES, structure(&critical, "block-on-tilting-table")));
     assert!(
         text.contains(
-            ".json --vary /gravity/0 --between 0 9 --step 3 --law associative --save result.json"
+            ".json --law associative --vary /gravity/0 --between 0 9 --step 3 --save result.json"
         ),
         "{text}"
     );
@@ -45,7 +45,7 @@ fn the_commands_that_come_next_ask_the_same_question() {
             "block-on-tilting-table",
         ),
     ));
-    assert!(text.contains(".json --support ground --direction 1,0,0 --save result.json"), "{text}");
+    assert!(text.contains(".json --support ground --direction 1,0 --save result.json"), "{text}");
     let text = out(&expect(YES, structure(&["tilt"], "block-on-tilting-table")));
     assert!(text.contains("block-on-tilting-table.json --save "), "{text}");
 }

@@ -194,7 +194,7 @@ fn a_path_is_a_collection_of_poses_and_a_film_beside_its_curve() {
     assert!(named.len() > 1 && named.iter().all(|n| desk.path(n).is_file()), "{text}");
     assert_eq!(fs::read_to_string(&csv).unwrap().lines().count(), named.len() + 1);
     let page = fs::read_to_string(&page).unwrap();
-    assert!(page.contains("\"film\":true") && page.contains("Share of the movement"));
+    assert!(page.contains("\"film\":[") && page.contains("Share of the movement"));
     assert!(page.contains("path, point by point") && !page.contains("simulation, fine"));
     // All of this movement is done; of a longer one that begins so, the rest is left.
     let longer = ["settle", &arch, "--move", "springer_right=0.008,0,0", "--from", &saved, "-q"];

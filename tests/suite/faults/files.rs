@@ -39,7 +39,7 @@ fn pipes_devices_and_folders_are_refused_at_once_wherever_a_file_is_read() {
             &["sweep", odd],
             &["sweep", "odd.json"],
             &["sweep", "plan.json", "-o", odd],
-            &["study", "--soak", "1", "--keep", odd],
+            &["study", "--extreme", "--keep", odd],
             &["repose", "drain", "--question", "repose", "--keep", odd],
         ] {
             let output = at_once(at, args);
@@ -77,7 +77,7 @@ fn no_output_replaces_another_or_what_is_read() {
         (&["assess", "wall.json", "--save", "new", "--svg", "./new"], "two outputs"),
         (&["sweep", "plan.json", "-o", "new", "--csv", "new"], "two outputs"),
         (&["sweep", "plan.json", "--csv", "new", "--report", "new"], "two outputs"),
-        (&["study", "--soak", "1", "--keep", "new", "--csv", "new"], "two outputs"),
+        (&["study", "--extreme", "--keep", "new", "--csv", "new"], "two outputs"),
         (&["simulate", "wall.json", "--csv", "new", "--svg", "new"], "two outputs"),
         (&["simulate", "wall.json", "--csv", "other-wall"], "would replace it"),
         (&["assess", "wall.json", "--save", "other-wall"], "would replace it"),
@@ -107,7 +107,7 @@ fn what_the_system_says_is_said_once() {
         &["sweep", "plan.json", "-o", "no/such/rows"],
         &["sweep", "merge", "none.jsonl"],
         &["sweep", "status", "none.jsonl"],
-        &["study", "--soak", "1", "--keep", "no/such/file"],
+        &["study", "--extreme", "--keep", "no/such/file"],
         &["sweep", "--attach", "none.jsonl"],
         &["simulate", "wall.json", "--csv", "no/such/file"],
         &["generate", "wall", "-o", "/proc/none"],

@@ -166,31 +166,6 @@ fn a_trajectory_that_was_cut_off_ends_with_a_whole_frame() {
     assert_eq!((text.lines().count() - 1) % blocks, 0, "a frame was cut");
 }
 
-#[test]
-fn a_soak_killed_again_and_again_is_the_soak_in_one_go() {
-    let folder = tempfile::tempdir().unwrap();
-    let args = ["study", "--soak", "40", "--seed", "3", "--quiet", "--json", "--keep"];
-    // Seconds are those of the run that asked; everything else depends on seed and number alone.
-    let timeless = |output: &std::process::Output| {
-        let mut list: Vec<serde_json::Value> = serde_json::from_slice(&output.stdout).unwrap();
-        list.iter_mut().for_each(|s| s["seconds"] = 0.into());
-        list
-    };
-    let (begun, direct) = (Instant::now(), run(folder.path(), &[&args[..], &["direct"]].concat()));
-    let time = begun.elapsed();
-    for k in 0..4 {
-        let mut child =
-            command(folder.path()).args(args).arg("kept").stdout(Stdio::null()).spawn().unwrap();
-        std::thread::sleep(time / 5);
-        signal(&mut child, if k % 2 == 0 { libc::SIGKILL } else { libc::SIGINT });
-    }
-    let kept = fs::read_to_string(folder.path().join("kept")).unwrap().matches('\n').count();
-    assert!(kept > 1, "nothing was kept");
-    let resumed = run(folder.path(), &[&args[..], &["kept"]].concat());
-    assert_eq!(timeless(&resumed), timeless(&direct));
-    assert_eq!(files(folder.path()), ["direct", "kept"]);
-}
-
 /// Starts a command that keeps what it does in `kept`, and kills it as soon as that file has grown
 /// by a line; whether it was still at work.
 fn killed_after_a_line(folder: &std::path::Path, args: &[&str]) -> bool {

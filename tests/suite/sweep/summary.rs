@@ -186,13 +186,13 @@ fn rows_without_a_value_are_drawn_and_said() {
     };
     let summary = summarize(&header, &rows);
     let heat = chart(&header, &rows, &summary, Kind::Heat).unwrap();
-    // Nine cells, 40 steps of the colour bar, the ground: nothing is left white.
-    assert_eq!(heat.matches("<rect").count(), 50);
+    // Nine cells, 40 steps of the colour bar, two keys, the ground: nothing is left white.
+    assert_eq!(heat.matches("<rect").count(), 52);
     let squares = |colour: &str| {
         let rects = heat.split("<rect").skip(1).filter_map(|r| r.split('>').next());
         rects.filter(|r| r.contains(&format!("fill=\"{colour}\""))).count()
     };
-    assert_eq!((squares("#C81E2D"), squares("#000000")), (4, 1));
+    assert_eq!((squares("#c81e2d"), squares("#000000")), (5, 2));
     assert!(heat.contains("falls: 4 rows") && heat.contains("error: 1 row"), "{heat}");
     // Against one number: two groups have a row without a value, so no mean; the third has one.
     let line = chart(&header, &rows, &summary, Kind::Line).unwrap();

@@ -39,11 +39,6 @@ impl Grade {
             (weaker, Self::Exact) => weaker,
         }
     }
-
-    /// Whether nothing is excused.
-    pub fn is_exact(self) -> bool {
-        self == Self::Exact
-    }
 }
 
 impl std::fmt::Display for Grade {

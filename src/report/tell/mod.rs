@@ -1,0 +1,112 @@
+//! How answers are told: of every question its words, its table and its charts, a value of one type
+//! ([`Telling`]) in one file or folder. What shows them matches on no question.
+
+mod assess;
+mod charts;
+mod critical;
+mod factor;
+mod kinematic;
+mod limit;
+mod moving;
+pub mod path;
+mod rocking;
+mod shaken;
+mod simulation;
+mod stages;
+pub(crate) mod state;
+mod telling;
+mod thrust;
+mod tilt;
+
+pub use charts::{attempts, heaps};
+
+use crate::{
+    ReportError,
+    chart::Chart,
+    text::{
+        left_out::left_out,
+        page::{Page, Role},
+    },
+};
+use check::{proof::result::ResultFile, question::QuestionKind};
+use telling::{Telling, look};
+
+/// How the answers to the question of a result are told.
+pub(crate) fn telling(file: &ResultFile) -> &'static Telling {
+    match file.question.kind() {
+        QuestionKind::Assess => &assess::TELLING,
+        QuestionKind::Limit => &limit::TELLING,
+        QuestionKind::Moving => &moving::TELLING,
+        QuestionKind::Tilt | QuestionKind::Repose => &tilt::TELLING,
+        QuestionKind::Critical => &critical::TELLING,
+        QuestionKind::Thrust => &thrust::TELLING,
+        QuestionKind::Simulate => &simulation::TELLING,
+        QuestionKind::Settle => &path::SETTLE,
+        QuestionKind::Push => &path::PUSH,
+        QuestionKind::Kinematic => &kinematic::TELLING,
+        QuestionKind::Stages => &stages::TELLING,
+        QuestionKind::State => &state::TELLING,
+        QuestionKind::Rock => &rocking::TELLING,
+        QuestionKind::Shake => &shaken::TELLING,
+    }
+}
+
+/// The table of a result: of its curve, its stages, its positions.
+///
+/// # Errors
+/// The answer to its question has none.
+pub fn csv(file: &ResultFile) -> Result<String, ReportError> {
+    match telling(file).csv {
+        Some(csv) => csv(file),
+        None => Err(ReportError::new("this question has no table of its own")),
+    }
+}
+
+/// The charts of a result: what `--chart` writes, and pages show.
+pub fn charts(file: &ResultFile) -> Vec<Chart> {
+    (telling(file).charts)(file)
+}
+
+/// The first line: the answer, and what weakens it to whoever reads nothing else.
+pub(crate) fn title(page: &mut Page, file: &ResultFile) {
+    let (mut text, mut role) = (telling(file).title)(file);
+    if let Some(words) =
+        telling(file).factor.and_then(|words| factor::without_live_load(file, words))
+    {
+        (text, role) = (format!("{text}; {words}"), Role::Bad);
+    }
+    if let Some(words) = left_out(file) {
+        role = if role == Role::Good { Role::Unsure } else { role };
+        text = format!("{text}; {words}");
+    }
+    if let Some(doubt) = &file.run.doubt {
+        text = format!("{text}: {}; {}", doubt.evidence, doubt.next);
+    }
+    page.title(&file.scene.name, under(file, text), role);
+}
+
+/// What is said with the contact tolerances that it rests on, where the scene has widened them.
+pub(crate) fn under(file: &ResultFile, text: impl std::fmt::Display) -> String {
+    match file.scene.input.contact.widened() {
+        Some(words) => format!("{text} (contact tolerances widened by the scene: {words})"),
+        None => text.to_string(),
+    }
+}
+
+/// The part of the scene that decides.
+pub(crate) fn part(page: &mut Page, file: &ResultFile) {
+    factor::part(page, file);
+}
+
+/// Commands that may come next.
+pub(crate) fn next(file: &ResultFile, scene: &str, again: &str) -> Vec<(String, &'static str)> {
+    let seen = matches!(file.question.kind(), QuestionKind::Simulate | QuestionKind::Shake);
+    let known = file.critical.is_some()
+        || file.thrust.is_some()
+        || file.stages.is_some()
+        || file.answer.path().is_some_and(|a| a.value.is_some());
+    if !seen && file.certificate.claim.is_none() && !known {
+        return vec![look(scene), (format!("{again} --verbose"), "every attempt at it")];
+    }
+    (telling(file).next)(file, scene, again)
+}

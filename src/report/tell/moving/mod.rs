@@ -1,0 +1,151 @@
+//! Trains for people: where the least load factor is, and what it is elsewhere.
+
+mod table;
+
+use super::{
+    factor, limit,
+    telling::{FactorWords, PLAIN, Telling},
+};
+use crate::text::{
+    options::{TextOptions, cut},
+    page::Page,
+};
+use base::{
+    number::{self, bracketed, computed, count, short},
+    tolerance,
+};
+use check::{
+    proof::{answer::FactorStatus, moving::MovingAnswer, result::ResultFile, told::Direction},
+    terms::Found,
+};
+use model::train::{self, Position};
+
+pub(super) const TELLING: Telling = Telling {
+    verb: "limit",
+    asked: |_| {
+        [
+            "By how much may the axle loads be multiplied, wherever the train stands?",
+            "λ multiplies the axle loads of the train at its worst position; weights, fill and dead \
+             loads stay as they are.",
+        ]
+    },
+    title: |file| {
+        let (text, role) = limit::title(file);
+        (text + &place(file).unwrap_or_default(), role)
+    },
+    why: |page, file| {
+        why(page, file);
+        factor::why(page, file, LAMBDA);
+    },
+    rows,
+    factor: Some(LAMBDA),
+    csv: Some(table::csv),
+    charts: |file| table::chart(file).into_iter().collect(),
+    ..PLAIN
+};
+
+/// What it is called.
+const LAMBDA: FactorWords = FactorWords { name: "λ", without: "without the train", tilt: false };
+
+/// So many positions are shown.
+const POSITIONS: usize = 12;
+
+/// Where the train stands, in a few words.
+pub(super) fn place(file: &ResultFile) -> Option<String> {
+    let a = file.answer.moving()?;
+    let way = match file.scene.input.train.as_ref().is_some_and(train::is_symmetric) {
+        true => String::new(),
+        false => format!(" {}", a.travel.words()),
+    };
+    Some(format!(" with the train at x = {}{way}", short(a.x)))
+}
+
+/// What was asked, and what was not.
+pub(super) fn why(page: &mut Page, file: &ResultFile) {
+    let Some(train) = &file.scene.input.train else { return };
+    let steps = train::positions(train);
+    let asked = |p: &Position| {
+        let at = |d: &Direction| d.answer.moving().is_some_and(|a| a.position() == *p);
+        file.directions.iter().any(at)
+    };
+    let taken = steps.iter().filter(|p| asked(p)).count();
+    let more = file.directions.len() - taken.min(file.directions.len());
+    let off = match steps.len() - taken {
+        0 => String::new(),
+        n => format!(" At {} no axle stands on a span.", count(n, "other step")),
+    };
+    let ways = match train::travels(train) {
+        [_] => "The train is the same from both ends, and so are both directions of travel.",
+        _ => "Both directions of travel were asked about, the train turned round.",
+    };
+    page.paragraph(&format!(
+        "The axles of the train, where it stands, are the live load. Of {} this is the least: {} of {} m{}, each with a proof of its own.{off} Between them nothing is proved. {ways}",
+        count(file.directions.len(), "position"),
+        count(taken, "step"),
+        short(train.step),
+        if more > 0 { format!(", and {more} around the least by golden section") } else { String::new() },
+    ));
+    let only = |d: &&Direction| d.dry.as_ref().is_some_and(|dry| dry.found == Found::AtLeast);
+    let at_least = file.directions.iter().filter(only).count();
+    if at_least > 0 {
+        page.paragraph(&format!(
+            "With dry friction {} asked for a value, where the bound is least; of the {at_least} others only that the blocks come to rest at what these bear, up to {} of it (computed, not proved). --every-value asks for all.",
+            if file.directions.len() - at_least == 1 { "one position was".into() } else { format!("{} positions were", file.directions.len() - at_least) },
+            1.0 - tolerance::REST_BELOW,
+        ));
+    }
+}
+
+/// The axles where the answer is, and the load factors of other positions.
+pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
+    let Some(a) = file.answer.moving() else { return };
+    let all = file.scene.input.train.as_ref().map_or(0, |t| t.axles.len());
+    let axle = |s: &train::Standing| {
+        let beside = match 1.0 - s.share {
+            b if b > 1e-9 => {
+                format!(", {:.1} % of it beside the spans and left out", 100.0 * b)
+            }
+            _ => String::new(),
+        };
+        format!("axle {} at x = {}: {} N{beside}", s.axle + 1, short(s.x), short(s.force))
+    };
+    let off = (0..all).filter(|k| a.axles.iter().all(|s| s.axle != *k));
+    let off = off.map(|k| format!("axle {}: not on a span", k + 1));
+    page.row("train", a.axles.iter().map(axle).chain(off));
+    let said: Vec<&MovingAnswer> =
+        file.directions.iter().filter_map(|d| d.answer.moving()).collect();
+    let both = file.scene.input.train.as_ref().is_some_and(train::is_symmetric);
+    let line = |a: &&MovingAnswer| {
+        let l = &a.load_factor;
+        let value = match (l.status, l.value, l.associative.found()) {
+            (FactorStatus::Found, Some(v), Some((bound, lower, upper))) if v == bound => {
+                format!("λ = {}", bracketed(v, lower, upper))
+            }
+            (FactorStatus::Found, Some(v), _) => format!("λ = {} with dry friction", computed(v)),
+            (FactorStatus::Unbounded, ..) => "no limit".into(),
+            (FactorStatus::Impossible, ..) => "falls, whatever the train".into(),
+            (FactorStatus::AtLeast, _, bound) => {
+                let most = bound.map(|(.., upper)| format!(", at most {}", number::moving(upper)));
+                let least = l.lower.map(computed).unwrap_or_default();
+                format!("λ at least {least} with dry friction{}", most.unwrap_or_default())
+            }
+            (FactorStatus::NotAtRest, ..) => "not at rest without the train".into(),
+            (_, _, Some((v, lower, upper))) => {
+                format!("λ at most {}, with dry friction undecided", bracketed(v, lower, upper))
+            }
+            _ => "undecided".into(),
+        };
+        let way = if both { String::new() } else { format!(" {}", a.travel.words()) };
+        format!("x = {}{way}: {value}", short(a.x))
+    };
+    // All where there is room for them, else as many, evenly spread.
+    let shown: Vec<&&MovingAnswer> = match options.verbose || said.len() <= POSITIONS {
+        true => said.iter().collect(),
+        false => (0..POSITIONS).map(|k| &said[k * (said.len() - 1) / (POSITIONS - 1)]).collect(),
+    };
+    let mut lines: Vec<String> = shown.into_iter().map(line).collect();
+    if lines.len() < said.len() {
+        lines.push(format!("… of {} (--verbose for all)", said.len()));
+    }
+    page.row("positions", cut(&lines, usize::MAX - 1, options));
+}

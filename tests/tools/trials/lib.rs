@@ -1,0 +1,14 @@
+//! Trials of the whole on random scenes. Numbers of scenes depend on a seed and their own number alone,
+//! so that what was found can be looked at again.
+//!
+//! * [`soak`]: verdicts held against their certificates, against omissions and, of a sample, against
+//!   simulations;
+//! * [`cross`]: each scene asked in several ways that must give one answer;
+//! * [`forge`]: results changed into false ones, all of which must be refused.
+
+#![forbid(unsafe_code)]
+
+pub mod cross;
+pub mod forge;
+mod random;
+pub mod soak;
