@@ -1,5 +1,5 @@
 //! How answers are told: of every question its words, its table and its charts, a value of one type
-//! ([`Telling`]) in one file or folder. What shows them matches on no question.
+//! (`Telling`) in one file or folder. What shows them matches on no question.
 
 mod assess;
 mod charts;

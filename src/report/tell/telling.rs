@@ -10,6 +10,9 @@ use crate::{
 };
 use check::proof::result::ResultFile;
 
+/// Makes a table.
+type Csv = fn(&ResultFile) -> Result<String, ReportError>;
+
 /// How the answers to a question are told.
 pub(crate) struct Telling {
     /// The verb of the command that asks it.
@@ -27,7 +30,7 @@ pub(crate) struct Telling {
     /// Of a load factor what it is called.
     pub factor: Option<FactorWords>,
     /// Its table.
-    pub csv: Option<fn(&ResultFile) -> Result<String, ReportError>>,
+    pub csv: Option<Csv>,
     /// Its charts.
     pub charts: fn(&ResultFile) -> Vec<Chart>,
 }
