@@ -470,8 +470,8 @@ class Answer:
 
 def _verification(told: tuple[dict[str, Any], str]) -> Verification:
     data, text = told
-    keys = ("confirmed", "grade", "parts")
-    return Verification(*(data[key] for key in keys), data.get("answer"), text)
+    confirmed, grade, parts = data["confirmed"], data["grade"], data["parts"]
+    return Verification(confirmed, grade, parts, data.get("answer"), text)
 
 
 def _write(path: str | os.PathLike[str], text: str) -> None:
