@@ -81,7 +81,10 @@ fn run(
     let film = if session.is_filmed() { frames(&session.model, &file) } else { Vec::new() };
     let file = session.answer_seen(terminal, Depicted::Scene(film), file)?;
     told.write(&file)?;
-    Ok(match file.answer.path().map(|a| a.status) {
+    let path = file.answer.path();
+    Ok(match path.map(|a| a.status) {
+        // Beyond a jump nothing is followed.
+        Some(PathStatus::Reached) if path.is_some_and(|a| a.jumps_at.is_some()) => Exit::Undecided,
         Some(PathStatus::Reached | PathStatus::Vanishes) => Exit::Yes,
         Some(PathStatus::Falls) => Exit::No,
         Some(PathStatus::Slides | PathStatus::Open) | None => Exit::Undecided,

@@ -527,6 +527,12 @@ fn moved_poses_and_changed_numbers_are_refused() {
     value["evidence"]["settle"]["ends"].as_array_mut().unwrap().reverse();
     crate::ask::told(&mut value);
     assert_eq!(value["answer"]["path"]["status"], "open");
+    // A pose on the way of which nothing is proved links nothing: no fall beyond it.
+    let mut value = file.to_value().unwrap();
+    value["evidence"]["settle"]["points"][2]["certificate"] = json!({ "forces": [], "rates": [] });
+    crate::ask::told(&mut value);
+    assert_eq!(value["answer"]["path"]["status"], "open");
+    assert_eq!(value["answer"]["path"]["value"], json!(path(&file).points[1].value));
     // It stands all the way, and no word of where it falls.
     let whole = |v: &mut Value| {
         v["evidence"]["settle"]["end"] = json!("reached");

@@ -208,7 +208,8 @@ fn status(
     let open = (PathStatus::Open, last, None);
     match (end, ends) {
         (EndEvidence::Falls, [stands, falls])
-            if claim(stands) == Some(Claim::Stable)
+            if whole
+                && claim(stands) == Some(Claim::Stable)
                 && claim(falls) == Some(Claim::Unstable)
                 && stands.value < falls.value =>
         {
