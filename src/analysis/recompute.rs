@@ -62,11 +62,8 @@ impl Recompute for Solvers {
         model: &Model,
     ) -> Option<Option<(Law, ClosedAnswer)>> {
         let mut question = question.clone();
-        match &mut question {
-            Question::Assess(o) => o.law = law,
-            Question::Thrust(o) => o.law = law,
-            Question::Critical(o) => o.law = law,
-            _ => {}
+        if let Some(own) = question.law_mut() {
+            *own = law;
         }
         Some(closing::again(&question, scene, model, &Control::default()))
     }

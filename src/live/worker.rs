@@ -156,14 +156,7 @@ fn keys(job: &Job, scene: &Value) -> Keys {
 fn stages(question: &Question) -> Vec<(Question, Option<Law>)> {
     let with = |law: Law| {
         let mut question = question.clone();
-        match &mut question {
-            Question::Assess(o) => o.law = law,
-            Question::Limit(o) => o.law = law,
-            Question::Tilt(o) => o.law = law,
-            Question::Thrust(o) => o.law = law,
-            Question::Kinematic(o) => o.law = law,
-            _ => return None,
-        }
+        *question.law_mut()? = law;
         Some((question, Some(law)))
     };
     let both: Vec<_> = [Law::Associative, Law::Coulomb].into_iter().filter_map(with).collect();

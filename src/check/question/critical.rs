@@ -1,12 +1,62 @@
-//! Which values of a range are scanned.
+//! What is asked of a number of the scene, and which values of its range are scanned.
 
-use super::CriticalOptions;
+use super::asked::Asked;
+use crate::terms::Law;
+use base::{
+    error::{InputError, JsonPath},
+    limits::SCANNED,
+};
 use scene::Scene;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// Values scanned where nothing is said. Fewer: more flips stay unseen. More: time.
 pub const SCAN: usize = 33;
 /// Whole numbers scanned where nothing is said.
 pub const WHOLE: usize = 1000;
+
+/// Options of `critical`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CriticalOptions {
+    /// How joints slide.
+    #[serde(default)]
+    pub law: Law,
+    /// JSON pointer of the number that varies.
+    pub vary: String,
+    /// Both ends of the range.
+    pub between: [f64; 2],
+    /// Values scanned, both ends among them: 33 where nothing is said, or every whole number up to
+    /// 1000 of them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scan: Option<usize>,
+}
+
+impl Asked for CriticalOptions {
+    fn check(&self, path: &JsonPath) -> Result<(), InputError> {
+        let refuse = |key: &str, text: String| Err(InputError::at(path.key(key), text));
+        if self.between[0] == self.between[1] {
+            return refuse("between", "the range is empty".into());
+        }
+        if self.scan.is_some_and(|n| !(2..=SCANNED).contains(&n)) {
+            let text = format!("must be from 2, both ends of the range, to {SCANNED}");
+            return refuse("scan", text);
+        }
+        Ok(())
+    }
+
+    fn law(&self) -> Law {
+        self.law
+    }
+
+    fn law_mut(&mut self) -> Option<&mut Law> {
+        Some(&mut self.law)
+    }
+
+    fn quantity(&self) -> Option<&'static str> {
+        Some("value at which the verdict flips")
+    }
+}
 
 impl CriticalOptions {
     /// Whether the number is a count, which takes whole numbers only.

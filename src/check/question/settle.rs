@@ -1,6 +1,7 @@
 //! What is asked of supports that move.
 
-use crate::path::saved::SavedPose;
+use super::asked::Asked;
+use crate::{path::saved::SavedPose, terms::Law};
 use base::error::{InputError, JsonPath};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -55,9 +56,8 @@ impl SupportMove {
     }
 }
 
-impl SettleOptions {
-    /// Refuses what means nothing, whatever the scene.
-    pub(super) fn check(&self, path: &JsonPath) -> Result<(), InputError> {
+impl Asked for SettleOptions {
+    fn check(&self, path: &JsonPath) -> Result<(), InputError> {
         let refuse = |key: &str, text: String| Err(InputError::at(path.key(key), text));
         for (k, m) in self.moves.iter().enumerate() {
             if self.moves[..k].iter().any(|other| other.support == m.support) {
@@ -74,6 +74,15 @@ impl SettleOptions {
             return refuse("at", "must be shares of the movement, from 0 to 1".into());
         }
         Ok(())
+    }
+
+    /// Hinges alone are followed, which are the same for both.
+    fn law(&self) -> Law {
+        Law::Associative
+    }
+
+    fn quantity(&self) -> Option<&'static str> {
+        Some("share of the movement up to which it stands")
     }
 }
 

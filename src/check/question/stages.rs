@@ -1,6 +1,9 @@
 //! Options of the question.
 
-use super::directions::check_directions;
+use super::{
+    asked::{Asked, Idle},
+    directions::check_directions,
+};
 use crate::terms::Law;
 use base::error::{InputError, JsonPath};
 use schemars::JsonSchema;
@@ -52,9 +55,10 @@ impl StagesOptions {
     pub fn has_order(&self) -> bool {
         self.any_order || !self.order.is_empty()
     }
+}
 
-    /// Refuses options of `stages` that mean nothing together.
-    pub(super) fn check(&self, path: &JsonPath) -> Result<(), InputError> {
+impl Asked for StagesOptions {
+    fn check(&self, path: &JsonPath) -> Result<(), InputError> {
         let refuse = |key: &str, text: &str| Err(InputError::at(path.key(key), text));
         let tilts = self.all.is_some() || !self.toward.is_empty();
         if self.remove_each && tilts {
@@ -73,5 +77,39 @@ impl StagesOptions {
             }
             _ => check_directions(path, &self.toward, self.all),
         }
+    }
+
+    fn law(&self) -> Law {
+        self.law
+    }
+
+    fn law_mut(&mut self) -> Option<&mut Law> {
+        Some(&mut self.law)
+    }
+
+    fn quantity(&self) -> Option<&'static str> {
+        Some(match (self.remove_each, self.has_order()) {
+            (true, _) => "blocks that may be taken out",
+            (_, true) => "blocks held at a time",
+            _ => "stages that stand before the first that does not",
+        })
+    }
+
+    fn idle_in_rows(&self) -> Option<Idle> {
+        if self.skip_margin {
+            return Some(("skip_margin", "remove it: rows ask for no margins"));
+        }
+        if self.skip_held {
+            return Some(("skip_held", "remove it: rows ask for no forces on what is held"));
+        }
+        let hint = "remove it: rows ask for no tilts";
+        match self.all.is_some() {
+            true => Some(("all", hint)),
+            false => (!self.toward.is_empty()).then_some(("toward", hint)),
+        }
+    }
+
+    fn for_one_number(self) -> Self {
+        Self { skip_margin: true, skip_held: true, ..self }
     }
 }

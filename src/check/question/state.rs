@@ -1,7 +1,11 @@
-//! Options of the question.
+//! What is asked of a scene whose joints have a stiffness.
 
-use super::ControlPoint;
-use crate::elastic::Quadrature;
+use super::{
+    asked::{Asked, Idle},
+    control::ControlPoint,
+};
+use crate::{elastic::Quadrature, terms::Law};
+use base::error::{InputError, JsonPath};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_with::skip_serializing_none;
@@ -26,6 +30,43 @@ pub struct StateOptions {
     pub dead_only: bool,
     /// A load factor below this counts as failure.
     pub require: Option<f64>,
+}
+
+impl Asked for StateOptions {
+    fn check(&self, path: &JsonPath) -> Result<(), InputError> {
+        let refuse = |key: &str, text: &str| Err(InputError::at(path.key(key), text));
+        if self.at.iter().any(|v| !(*v > 0.0 && v.is_finite())) {
+            return refuse("at", "must be load factors above 0");
+        }
+        if self.dead_only && (!self.at.is_empty() || self.control.is_some()) {
+            return refuse("dead_only", "without a live load there is no curve");
+        }
+        Ok(())
+    }
+
+    /// Joints that slide do not open.
+    fn law(&self) -> Law {
+        Law::Coulomb
+    }
+
+    fn require(&self) -> Option<f64> {
+        self.require
+    }
+
+    fn quantity(&self) -> Option<&'static str> {
+        Some(match self.dead_only {
+            true => "greatest displacement in m",
+            false => "load factor of the path",
+        })
+    }
+
+    fn idle_in_rows(&self) -> Option<Idle> {
+        let hint = "remove it: rows show no curve";
+        match self.at.is_empty() {
+            false => Some(("at", hint)),
+            true => self.control.is_some().then_some(("control", hint)),
+        }
+    }
 }
 
 fn is_area(q: &Quadrature) -> bool {

@@ -1,0 +1,95 @@
+//! What is asked of a mechanism under an earthquake.
+
+use super::{
+    asked::{Asked, Idle},
+    control::ControlPoint,
+    directions::check_directions,
+};
+use crate::terms::Law;
+use base::error::{InputError, JsonPath};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use serde_with::skip_serializing_none;
+
+/// Options of `kinematic`.
+#[skip_serializing_none]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct KinematicOptions {
+    /// How joints slide.
+    pub law: Law,
+    /// A load factor α0 below this counts as failure.
+    pub require: Option<f64>,
+    /// Earthquakes towards these directions.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub toward: Vec<[f64; 3]>,
+    /// Earthquakes towards this many directions, evenly spread, the first along x; 8 where nothing is
+    /// said.
+    pub all: Option<u16>,
+    /// The point whose way measures the motion; where nothing is said the centre of mass of the block
+    /// next to the centre of all masses that move.
+    pub control: Option<ControlPoint>,
+    /// Factor of confidence; 1.35 where nothing is said.
+    pub fc: Option<f64>,
+    /// Ways of the control point that become points of the curve, beside others, m.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub at: Vec<f64>,
+    /// The linear analysis alone, without a curve. Rows of a sweep ask nothing else: a plan has no
+    /// such key.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub linear: bool,
+    /// Whether it stands under its dead load alone is not asked as well. Rows of a sweep ask it with
+    /// dry friction only: a plan has no such key.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub skip_dead: bool,
+}
+
+impl Asked for KinematicOptions {
+    fn check(&self, path: &JsonPath) -> Result<(), InputError> {
+        let refuse = |key: &str, text: String| Err(InputError::at(path.key(key), text));
+        if let Some(f) = self.fc.filter(|f| !(*f >= 1.0 && f.is_finite())) {
+            return refuse("fc", format!("a factor of confidence is at least 1, got {f}"));
+        }
+        if self.at.iter().any(|v| !(*v >= 0.0 && v.is_finite())) {
+            return refuse("at", "must be ways from 0 on".into());
+        }
+        if self.linear && !self.at.is_empty() {
+            return refuse("at", "the linear analysis has no curve".into());
+        }
+        check_directions(path, &self.toward, self.all)
+    }
+
+    fn law(&self) -> Law {
+        self.law
+    }
+
+    fn law_mut(&mut self) -> Option<&mut Law> {
+        Some(&mut self.law)
+    }
+
+    fn require(&self) -> Option<f64> {
+        self.require
+    }
+
+    fn quantity(&self) -> Option<&'static str> {
+        Some("α0")
+    }
+
+    fn idle_in_rows(&self) -> Option<Idle> {
+        if self.skip_dead {
+            return Some((
+                "skip_dead",
+                "remove it: rows ask for the verdict without an earthquake where dry friction needs it, and nowhere else",
+            ));
+        }
+        if self.linear {
+            return Some(("linear", "remove it: rows show α0, and ask for no curve"));
+        }
+        (!self.at.is_empty()).then_some(("at", "remove it: rows ask for no curve"))
+    }
+
+    /// With dry friction all directions share the verdict without an earthquake.
+    fn for_one_number(self) -> Self {
+        Self { skip_dead: self.law == Law::Associative, linear: true, ..self }
+    }
+}

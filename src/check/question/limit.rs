@@ -1,0 +1,48 @@
+//! What is asked of a live load.
+
+use super::asked::{Asked, Idle};
+use crate::terms::Law;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Options of `limit`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct LimitOptions {
+    /// How joints slide.
+    pub law: Law,
+    /// A load factor below this counts as failure.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub require: Option<f64>,
+    /// Whether it stands under its dead load alone is not asked as well. Rows of a sweep never ask
+    /// it: a plan has no such key.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub skip_dead: bool,
+}
+
+impl Asked for LimitOptions {
+    fn law(&self) -> Law {
+        self.law
+    }
+
+    fn law_mut(&mut self) -> Option<&mut Law> {
+        Some(&mut self.law)
+    }
+
+    fn require(&self) -> Option<f64> {
+        self.require
+    }
+
+    fn quantity(&self) -> Option<&'static str> {
+        Some("load factor")
+    }
+
+    fn idle_in_rows(&self) -> Option<Idle> {
+        let hint = "remove it: rows never ask for the verdict without the live load";
+        self.skip_dead.then_some(("skip_dead", hint))
+    }
+
+    fn for_one_number(self) -> Self {
+        Self { skip_dead: true, ..self }
+    }
+}
