@@ -154,7 +154,7 @@ pub mod proof {
         Answer, Derived, Evidence, PackingFile, ResultFile, Run, Saved, Simulation, Verification,
         VerificationFile, answer, certificate, compare, critical, derive, evidence, kinematic,
         member, moving, packing, path, read, recompute, result, rocking, shaken, simulation,
-        stages, state, thrust, told, verification, work,
+        stages, state, thrust, told, verification, without, work,
     };
     pub use sweep::path as kept;
 }

@@ -29,6 +29,7 @@ use super::{
     state::{self, Stated},
     thrust,
     thrust::Thrust,
+    without::{self, Without},
 };
 use base::error::{InputError, JsonPath};
 use cholesky::parallel::both;
@@ -60,6 +61,8 @@ pub enum Answer {
     Kinematic(Box<Kinematic>),
     /// Does every stage of its construction stand?
     Stages(Box<Stages>),
+    /// Which single blocks may be taken out?
+    Without(Box<Without>),
     /// What follows from the stiffness of its joints?
     State(Box<Stated>),
     /// On ground that moves: what does its mechanism do?
@@ -216,6 +219,7 @@ fn answer(
         Question::Stages(options) => {
             Answer::Stages(Box::new(stages::stages(options, scene, model, control)?))
         }
+        Question::Without(_) => Answer::Without(Box::new(without::without(scene, model, control)?)),
         Question::State(options) => Answer::State(Box::new(state::state(options, model, control)?)),
         Question::Rock(options) => Answer::Rock(Box::new(rocking::rock(options, means.machine)?)),
         Question::Simulate(options) => (means.in_time)(&Asked::Simulate(options))?,

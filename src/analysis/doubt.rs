@@ -6,7 +6,7 @@
 //! first that fits is named, the most certain first.
 
 use super::{
-    Answer, Assessment, Control, Critical, LoadFactor, Proved, Tilt, coulomb::DryLoadFactor,
+    Answer, Assessment, Control, Critical, Left, LoadFactor, Proved, Tilt, coulomb::DryLoadFactor,
     critical::Scanned, critical_value::Probe,
 };
 use base::{
@@ -75,6 +75,10 @@ pub fn doubt(answer: &Answer, model: &Model, control: &Control) -> Option<Doubt>
             })
             .or_else(|| k.dead.as_ref().and_then(|dead| about.verdict(dead))),
         Answer::Stages(s) => s.stages.iter().find_map(|s| s.doubt.clone()),
+        Answer::Without(w) => {
+            let of = |l: &Left| About { model: &l.model, ..about }.verdict(&l.verdict);
+            w.each.iter().find_map(of)
+        }
         Answer::State(s) => s
             .verdict
             .as_ref()
@@ -88,6 +92,7 @@ pub fn doubt(answer: &Answer, model: &Model, control: &Control) -> Option<Doubt>
     }
 }
 
+#[derive(Clone, Copy)]
 struct About<'a> {
     model: &'a Model,
     late: bool,

@@ -37,6 +37,7 @@ pub mod state;
 pub mod thrust;
 pub mod tilt;
 mod warm_start;
+mod without;
 
 pub use agreement::agreement;
 pub use ask::{Answer, Limited, Tilted, ask, ask_among, ask_on};
@@ -45,7 +46,7 @@ pub use check::ground::ShakeOptions;
 pub use check::question::{
     self, AssessOptions, ControlPoint, CriticalOptions, KinematicOptions, LimitOptions,
     MovingOptions, PushOptions, Question, ReposeOptions, SettleOptions, SimulateOptions,
-    StagesOptions, StateOptions, SupportMove, ThrustOptions, TiltOptions,
+    StagesOptions, StateOptions, SupportMove, ThrustOptions, TiltOptions, WithoutOptions,
 };
 pub use check::rocking::{RockOptions, RockPoint};
 pub use check::terms::{Closed, Difference, Doubt, DoubtCause, LeftOutContacts};
@@ -65,6 +66,7 @@ pub use rocking::Rocking;
 pub use stability::{Packing, Stability, stability};
 pub use stages::{Stages, stages};
 pub use tilt::{Tilt, tilt};
+pub use without::{Left, Without};
 pub use {
     ask::ask_watched,
     in_time::{ShakenScene, Watch, burdens},

@@ -43,3 +43,4 @@ pub mod terminal;
 pub mod thrust;
 pub mod tilt;
 mod told;
+mod without;

@@ -79,6 +79,7 @@ fn dispatch(verb: &Verb, terminal: &Terminal) -> anyhow::Result<Exit> {
         Verb::Push(a) => super::path::push(a, terminal),
         Verb::Kinematic(a) => super::kinematic::run(a, terminal),
         Verb::Stages(a) => super::stages::run(a, terminal),
+        Verb::Without(a) => super::without::run(a, terminal),
         Verb::State(a) => super::state::run(a, terminal),
         Verb::Study(a) => super::study::run(a, terminal),
         Verb::Simulate(a) => super::simulate::run(a, terminal),

@@ -221,6 +221,10 @@ impl RowAnswer {
                 ..Self::of_load_factor(&d.bound, d.dry.as_ref(), verdict(&k.dead), |lambda| lambda)
             })),
             Answer::Stages(s) => Self::of_stages(s),
+            Answer::Without(w) => match w.count() {
+                Some(n) => Self { value: Some(n as f64), ..Self::of(RowStatus::Found) },
+                None => Self::of(RowStatus::Undecided),
+            },
             Answer::State(s) => Self::of_state(s),
             Answer::Rock(r) => Self::of_rocking(r),
             Answer::Simulate(outcome) => Self::of(match outcome.fate {

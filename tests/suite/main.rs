@@ -80,3 +80,4 @@ mod symmetry;
 mod templates;
 mod thrust;
 mod train;
+mod without;

@@ -75,6 +75,18 @@ fn the_file_of_the_scene_has_its_digest() {
     digest(&format!("\u{feff}{text}"));
 }
 
+/// The record names the format that is saved.
+#[test]
+fn the_format_of_results_is_the_one_that_is_saved() {
+    let desk = tempfile::tempdir().unwrap();
+    let saved = desk.path().join("result.json");
+    let question = ["assess", "structures/column.json", "--save", saved.to_str().unwrap()];
+    let page = report(&question, &desk.path().join("page.html"));
+    let saved: Value = serde_json::from_str(&fs::read_to_string(saved).unwrap()).unwrap();
+    let format = saved["format"].as_str().unwrap();
+    assert!(page.contains(&format!(">{format}<")), "{format}");
+}
+
 /// Heaps have a record of their own: a row each, and how they were made.
 #[test]
 fn heaps_are_listed() {

@@ -185,7 +185,7 @@ fn every_verb_answers_as_the_schema_says() {
         &["kinematic", "structures/overturning-wall.json", "--all", "3"],
         &["kinematic", "structures/overturning-wall-with-tie.json", "--toward", "1,0"],
         &["stages", "structures/barrel-on-centring.json", "--toward", "1,0"],
-        &["stages", "structures/a-frame-stands.json", "--remove-each"],
+        &["without", "structures/a-frame-stands.json"],
         &["stages", "structures/a-frame-stands.json", "--any-order"],
         &["state", "structures/block-on-bed.json"],
     ];

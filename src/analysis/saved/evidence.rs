@@ -83,6 +83,7 @@ pub(super) fn of(
             let toward = directions(model.assembly.gravity, &o.toward, o.all);
             Evidence::Stages(stages(s, &toward))
         }
+        (Question::Without(_), Answered::Without(w)) => Evidence::Without(w.evidence()),
         (Question::State(o), Answered::State(s)) => {
             let named = s.control.map(|(i, point)| ControlPoint {
                 block: model.assembly.blocks[i].id.clone(),

@@ -30,6 +30,7 @@ use check::{
 };
 use derived::REFUSED;
 use model::interface::Model;
+pub(super) use proof::standing;
 use scene::Scene;
 
 /// The result of a question; packings have one of their own ([`packing`](packing())).

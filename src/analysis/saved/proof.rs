@@ -13,7 +13,7 @@ pub(super) fn certificate<T: Claims>(model: &Model, proved: &Proved<T>) -> Arc<C
     Certificate::new(model, proved.claim(), proved.evidence(), proved.findings())
 }
 
-pub(super) fn standing(model: &Model, a: &Proved<Assessment>) -> Standing {
+pub(crate) fn standing(model: &Model, a: &Proved<Assessment>) -> Standing {
     let state = a.state.as_ref().map(|s| s.motion);
     Standing { certificate: certificate(model, a), state }
 }

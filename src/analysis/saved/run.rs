@@ -101,6 +101,17 @@ pub(super) fn of(scene: &Scene, model: &Model, answer: &Answered) -> Run {
             }
             s.stages.iter().for_each(|s| stage(&mut run, s));
         }
+        Answered::Without(w) => {
+            if model.interfaces.left_out.is_some() {
+                let text = "contacts between blocks that overlap or nearly touch are left out: nothing is asked again with them closed, `assess` does that for the whole scene";
+                run.warnings.push(Finding::new(FindingCode::ContactIgnored, text.to_string()));
+            }
+            for l in &w.each {
+                let mut own = Run::default();
+                dead(&mut own, &l.verdict);
+                together(&mut run, own);
+            }
+        }
         Answered::State(s) => {
             run.warnings.extend(s.joints.findings.iter().cloned());
             if s.track.is_some() || s.rest.refused().is_some() {
@@ -204,13 +215,21 @@ fn stage(run: &mut Run, s: &Staged) {
         Some(Answered::Tilt(t)) => t.directions.iter().for_each(|t| tilted(&mut own, t)),
         _ => {}
     }
-    // What stages have in common was tried once.
+    let name = &s.stage.name;
+    own.warnings.iter_mut().for_each(|w| w.text = format!("{name}: {}", w.text));
+    together(run, own);
+    run.why.stages.extend(s.doubt.clone().map(|doubt| (name.clone(), doubt)));
+}
+
+/// What was done for one of several scenes that have parts in common: these were tried once.
+fn together(run: &mut Run, own: Run) {
     let new: Vec<Attempt> = own.trace.into_iter().filter(|a| !run.trace.contains(a)).collect();
     run.trace.extend(new);
     run.timings.check += own.timings.check;
     run.dry_solves += own.dry_solves;
-    let name = &s.stage.name;
-    let told = own.warnings.into_iter();
-    run.warnings.extend(told.map(|w| Finding { text: format!("{name}: {}", w.text), ..w }));
-    run.why.stages.extend(s.doubt.clone().map(|doubt| (name.clone(), doubt)));
+    for w in own.warnings {
+        if !run.warnings.contains(&w) {
+            run.warnings.push(w);
+        }
+    }
 }

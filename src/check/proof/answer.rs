@@ -3,7 +3,7 @@
 use super::{
     certificate::DryResult, critical::CriticalValue, kinematic::KinematicAnswer,
     moving::MovingAnswer, path::PathAnswer, rocking::RockingAnswer, shaken::ShakenAnswer,
-    stages::StagesAnswer, state::StateAnswer, thrust::ThrustAnswer,
+    stages::StagesAnswer, state::StateAnswer, thrust::ThrustAnswer, without::WithoutAnswer,
 };
 use crate::{
     terms::{Bound, Bracket, Deciding, Fate, Found, Law, Outcome},
@@ -30,6 +30,8 @@ pub enum Answer {
     Kinematic(Box<KinematicAnswer>),
     /// Does every stage of its construction stand, and how safely?
     Stages(Box<StagesAnswer>),
+    /// Which blocks may be taken out?
+    Without(Box<WithoutAnswer>),
     /// What follows from the stiffness of its joints.
     State(Box<StateAnswer>),
     /// On ground that moves: what its mechanism does.
@@ -234,6 +236,7 @@ impl Answer {
             Self::Critical(_)
             | Self::Thrust(_)
             | Self::Path(_)
+            | Self::Without(_)
             | Self::Rocking(_)
             | Self::Shaken(_)
             | Self::Simulation(SimulationAnswer { verdict: None, .. }) => None,
@@ -341,6 +344,7 @@ impl Answer {
             Self::Kinematic(a) => a.proof,
             Self::Rocking(a) => a.proof,
             Self::State(a) => a.proof,
+            Self::Without(a) => a.proof,
             _ => None,
         }
     }

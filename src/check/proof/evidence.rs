@@ -4,7 +4,7 @@
 
 use super::{
     certificate::Certificate, kinematic::Control, rocking::RockingAnswer, shaken::ShakenAnswer,
-    simulation::Seen,
+    simulation::Seen, without::WithoutEvidence,
 };
 use crate::{
     elastic::PathEnd,
@@ -42,6 +42,8 @@ pub enum Evidence {
     Kinematic(KinematicEvidence),
     /// Does every stage stand?
     Stages(StagesEvidence),
+    /// Which blocks may be taken out?
+    Without(WithoutEvidence),
     /// What follows from the stiffness of joints?
     State(StateEvidence),
     /// A mechanism on ground that moves.

@@ -25,6 +25,7 @@ pub mod thrust;
 pub mod told;
 pub mod verification;
 pub mod verify;
+pub mod without;
 pub mod work;
 
 pub use answer::Answer;

@@ -21,6 +21,9 @@ use serde_json::{Value, json};
 use serde_with::skip_serializing_none;
 use std::ops::Deref;
 
+/// The format, as files name it.
+pub const FORMAT: &str = "voussoir-result/3";
+
 /// The version of the format.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum ResultFormat {

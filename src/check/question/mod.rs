@@ -19,6 +19,7 @@ mod stages;
 mod state;
 mod thrust;
 mod tilt;
+mod without;
 
 pub use asked::{Asked, Idle};
 pub use assess::AssessOptions;
@@ -36,6 +37,7 @@ pub use stages::{MOST_TRIES, StagesOptions};
 pub use state::StateOptions;
 pub use thrust::ThrustOptions;
 pub use tilt::TiltOptions;
+pub use without::WithoutOptions;
 
 use crate::{ground::ShakeOptions, rocking::RockOptions, terms::Law};
 use base::error::{InputError, JsonPath};
@@ -160,6 +162,8 @@ questions! {
     Push(PushOptions) = "push",
     /// Does every stage of its construction stand, and how safely?
     Stages(StagesOptions) = "stages",
+    /// Which single blocks may be taken out with everything left standing?
+    Without(WithoutOptions) = "without",
     /// At what acceleration does a mechanism start under an earthquake, and how does its resistance
     /// fall as it moves? In several directions the least.
     Kinematic(KinematicOptions) = "kinematic",

@@ -162,6 +162,12 @@ pub enum Verb {
     /// stage stands (or some block can be taken out), 1 if one does not (or none can be), 3 if that
     /// stays open.
     Stages(Stages),
+    /// Which single blocks may be taken out with everything left standing?
+    ///
+    /// Every free block is taken out by itself, and what is left has its own verdict and proof.
+    /// Pictures show by colour what may go. Exit code 0 if some block can be taken out, 1 if none
+    /// can, 3 if that stays open.
+    Without(Without),
     /// What forces and displacements follow from the stiffness of its joints?
     ///
     /// Joints with a "normal_stiffness" yield as springs that cannot pull, spheres of materials with
@@ -318,6 +324,17 @@ pub struct Tilt {
     /// Do not ask as well whether it stands when level.
     #[arg(long)]
     pub skip_dead: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct Without {
+    #[command(flatten)]
+    pub common: Common,
+    #[command(flatten)]
+    pub pictures: Pictures,
+    /// Write the blocks to this file, comma-separated, a row a block.
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Csv))]
+    pub csv: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

@@ -59,7 +59,10 @@ impl Stage {
     }
 
     /// For every free block the stage without it, in the order of the scene.
-    pub fn removals(assembly: &Assembly) -> Vec<Self> {
+    ///
+    /// # Errors
+    /// There are fewer than two free blocks.
+    pub fn removals(assembly: &Assembly) -> Result<Vec<Self>, InputError> {
         let without = |i: usize| {
             let mut stage = Self::whole(assembly.blocks.len());
             stage.present[i] = false;
@@ -67,7 +70,12 @@ impl Stage {
             stage.path = assembly.blocks[i].path.clone();
             stage
         };
-        assembly.free().map(without).collect()
+        let all: Vec<Self> = assembly.free().map(without).collect();
+        if all.len() < 2 {
+            let text = "there are fewer than two free blocks: nothing is left to stand without one";
+            return Err(InputError::at(JsonPath::root(), text).hint("ask `voussoir assess`"));
+        }
+        Ok(all)
     }
 
     /// For every block that is placed the stage after it, in this order; where all that is there is

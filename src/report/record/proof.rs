@@ -2,7 +2,13 @@
 
 use super::{Part, Section};
 use base::number::short;
-use check::{proof::result::ResultFile, verdict::exact::Grade};
+use check::{
+    proof::{
+        Answer,
+        result::{FORMAT, ResultFile},
+    },
+    verdict::exact::Grade,
+};
 
 /// The proof as it was found when the answer was given, and versions.
 pub(super) fn sections(file: &ResultFile) -> Vec<Section> {
@@ -29,6 +35,7 @@ pub(super) fn sections(file: &ResultFile) -> Vec<Section> {
         (file.critical.is_some(), "a verdict with its certificate on either side of every flip"),
         (file.path.is_some(), "a certificate at every point of the curve"),
         (file.stages.is_some(), "a certificate for every stage"),
+        (matches!(file.answer, Answer::Without(_)), "a certificate for every block taken out"),
         (file.against.is_some(), "a certificate for the mechanism; its motion is computed"),
     ] {
         if there {
@@ -45,7 +52,7 @@ pub(super) fn sections(file: &ResultFile) -> Vec<Section> {
                solver that found it. A result saved with --save holds it; voussoir check verifies it again.";
     let versions = vec![
         ["voussoir".into(), file.run.voussoir.clone()],
-        ["format of results".into(), "voussoir-result/2".into()],
+        ["format of results".into(), FORMAT.into()],
     ];
     vec![
         Section::new("Proof", vec![Part::Facts(facts), Part::Text(how.into())]),

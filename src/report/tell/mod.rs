@@ -17,6 +17,7 @@ pub(crate) mod state;
 mod telling;
 mod thrust;
 mod tilt;
+mod without;
 
 pub use charts::{attempts, heaps};
 
@@ -45,6 +46,7 @@ pub(crate) fn telling(file: &ResultFile) -> &'static Telling {
         QuestionKind::Push => &path::PUSH,
         QuestionKind::Kinematic => &kinematic::TELLING,
         QuestionKind::Stages => &stages::TELLING,
+        QuestionKind::Without => &without::TELLING,
         QuestionKind::State => &state::TELLING,
         QuestionKind::Rock => &rocking::TELLING,
         QuestionKind::Shake => &shaken::TELLING,
@@ -104,6 +106,7 @@ pub(crate) fn next(file: &ResultFile, scene: &str, again: &str) -> Vec<(String, 
     let known = file.critical.is_some()
         || file.thrust.is_some()
         || file.stages.is_some()
+        || file.answer.proof().is_some()
         || file.answer.path().is_some_and(|a| a.value.is_some());
     if !seen && file.certificate.claim.is_none() && !known {
         return vec![look(scene), (format!("{again} --verbose"), "every attempt at it")];

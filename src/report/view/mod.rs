@@ -175,6 +175,7 @@ impl View {
             view.course = Course::of(path);
         }
         view.stage(model, file);
+        view.removals(model, file);
         view.film.retain(|f| f.blocks.len() == view.bodies.len());
         if let Some(worst) = file.answer.moving() {
             view.course = Course::train(worst.x, &view.film);

@@ -2,17 +2,11 @@
 
 use super::{Course, View};
 use check::{
-    proof::{
-        result::ResultFile,
-        stages::{StageResult, StagesResult},
-    },
+    proof::{Answer, result::ResultFile, stages::StageResult},
     verdict::Verdict,
 };
 use dynamics::{Fidelity, Frame, Pose};
-use model::{
-    assembly::{self, Stage},
-    interface::Model,
-};
+use model::{assembly, interface::Model};
 use nalgebra::{UnitQuaternion, Vector3};
 
 /// A number for every block, which is shown by colour.
@@ -42,7 +36,7 @@ impl View {
             return;
         }
         if result.remove_each {
-            return self.removals(&list, result);
+            return;
         }
         self.film = (0..list.len()).map(|k| self.frame((k + 1) as f64)).collect();
         self.course = Course {
@@ -83,16 +77,17 @@ impl View {
         }
     }
 
-    fn removals(&mut self, list: &[Stage], result: &StagesResult) {
+    /// Adds what can be taken out.
+    pub(super) fn removals(&mut self, model: &Model, file: &ResultFile) {
+        let Answer::Without(a) = &file.answer else { return };
         let mut of = vec![None; self.bodies.len()];
-        for (stage, said) in list.iter().zip(&result.list) {
-            for i in stage.absent() {
-                of[i] = Some(match said.stands() {
-                    Verdict::Stable => 0.0,
-                    Verdict::Conditional | Verdict::Undecided => 0.5,
-                    Verdict::Unstable => 1.0,
-                });
-            }
+        for w in &a.each {
+            let Some(i) = model.assembly.find(&w.block) else { return };
+            of[i] = Some(match w.left.verdict {
+                Verdict::Stable => 0.0,
+                Verdict::Conditional | Verdict::Undecided => 0.5,
+                Verdict::Unstable => 1.0,
+            });
         }
         let ends = ["the rest stands", "the rest falls"].map(String::from);
         self.values = Some(ViewValues { name: "Taken out by itself".into(), ends, of });

@@ -21,6 +21,7 @@ use super::{
     result::{ResultFile, Run, SceneSummary},
     rocking, shaken, stages, state, thrust,
     told::{Direction, Told},
+    without,
 };
 use crate::{
     proof::answer::{Answer, LimitAnswer, SimulationAnswer, TiltAnswer},
@@ -140,6 +141,7 @@ impl Derivation<'_> {
             }
             (Question::Kinematic(o), Evidence::Kinematic(e)) => kinematic::derive(self, o, e),
             (Question::Stages(o), Evidence::Stages(e)) => stages::derive(self, o, e),
+            (Question::Without(_), Evidence::Without(e)) => without::derive(self, e),
             (Question::State(o), Evidence::State(e)) => state::derive(self, o, e),
             (Question::Rock(o), Evidence::Rock(e)) => rocking::derive(self, o, e),
             (Question::Shake(o), Evidence::Shake(e)) => shaken::derive(self, o, e),

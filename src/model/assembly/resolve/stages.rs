@@ -94,14 +94,7 @@ pub fn asked_stages(
     assembly: &Assembly,
 ) -> Result<Vec<Stage>, InputError> {
     match asked {
-        AskedStages::RemoveEach => {
-            let all = Stage::removals(assembly);
-            if all.len() < 2 {
-                let text = "there is one free block: nothing is left to stand without it";
-                return Err(InputError::at(JsonPath::root(), text).hint("ask `voussoir assess`"));
-            }
-            Ok(all)
-        }
+        AskedStages::RemoveEach => Stage::removals(assembly),
         AskedStages::InOrder(placed) => Stage::in_order(assembly, placed),
         AskedStages::OfScene => {
             let all = stages(scene, assembly)?;
