@@ -36,8 +36,6 @@ use scene::Scene;
 /// The answer of `stages`.
 #[derive(Clone, Debug)]
 pub struct Stages {
-    /// The stages are the scene without each of its free blocks.
-    pub remove_each: bool,
     /// The order of which they are the stages.
     pub order: Option<Order>,
     /// So many blocks can be held at a time, where that was said.
@@ -85,7 +83,6 @@ pub fn stages(
     };
     let asked = match &order {
         Some(order) => AskedStages::InOrder(&order.placed),
-        None if options.remove_each => AskedStages::RemoveEach,
         None => AskedStages::OfScene,
     };
     let list = assembly::asked_stages(asked, scene, &model.assembly)?;
@@ -95,7 +92,7 @@ pub fn stages(
     let stages = answered.map_err(|e| {
         InputError::at(JsonPath::root(), format!("threads cannot be started: {e}"))
     })??;
-    Ok(Stages { remove_each: options.remove_each, order, hands: options.hands, stages })
+    Ok(Stages { order, hands: options.hands, stages })
 }
 
 /// The order that is given or sought.
@@ -143,7 +140,7 @@ fn staged(
     let model = at_stage(scene, whole, stage)?;
     let verdict = known.assess(&model, control);
     let stands = verdict.verdict == Verdict::Stable;
-    let only_verdict = options.skip_margin || options.remove_each || options.has_order();
+    let only_verdict = options.skip_margin || options.has_order();
     let asked = stands && !only_verdict;
     let no_margin = if asked { no_tilt(&model) } else { None };
     let margin = (asked && no_margin.is_none())

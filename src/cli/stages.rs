@@ -19,7 +19,6 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
     let told = Told::open(&args.csv, &args.chart)?;
     let question = Question::Stages(StagesOptions {
         law: session.law(),
-        remove_each: args.remove_each,
         any_order: args.any_order,
         order: args.order.clone(),
         hands: args.hands,
@@ -42,35 +41,32 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
     Ok(file.answer.stages().map_or(Exit::Undecided, exit))
 }
 
-/// The worst stage as a result of its own, for pictures; of blocks that are taken out nothing, for
-/// the whole scene is drawn.
+/// The worst stage as a result of its own, for pictures.
 fn worst<'a>(
     session: &Session,
     answer: &'a Answer,
     file: &ResultFile,
 ) -> Option<(&'a voussoir::interface::Model, ResultFile)> {
     let Answer::Stages(asked) = answer else { return None };
-    let said = file.answer.stages().filter(|_| !asked.remove_each)?;
+    let said = file.answer.stages()?;
     let stage = asked.stages.iter().find(|s| s.stage.name == said.worst)?;
     let mut own = saved::assessment(&session.scene, &stage.model, &stage.verdict).ok()?;
     own.scene.name = format!("{}: {}", file.scene.name, said.worst);
     Some((&stage.model, own))
 }
 
-/// Whether all stand, or some block can be taken out.
+/// Whether all stand.
 fn exit(said: &StagesAnswer) -> Exit {
-    match &said.removable {
-        Some(list) if !list.is_empty() => Exit::Yes,
-        // Nothing can be taken out, as far as is known.
-        Some(_) if said.proof.is_none() => Exit::Undecided,
-        Some(_) => Exit::No,
-        None if said.least_held.is_some() => match (said.hands_do(), said.verdict) {
+    if said.least_held.is_some() {
+        return match (said.hands_do(), said.verdict) {
             (Some(false), _) => Exit::No,
             (Some(true), Verdict::Stable) => Exit::Yes,
             _ => Exit::Undecided,
-        },
-        // A margin that is negative or was not found is no yes.
-        None if said.verdict == Verdict::Stable && !said.is_safe() => Exit::Undecided,
-        None => verdict(Some(said.verdict)),
+        };
+    }
+    // A margin that is negative or was not found is no yes.
+    match said.verdict {
+        Verdict::Stable if !said.is_safe() => Exit::Undecided,
+        known => verdict(Some(known)),
     }
 }

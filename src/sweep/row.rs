@@ -265,8 +265,7 @@ impl RowAnswer {
         Self { value, lower: factor.map(|f| f.reached), upper, ..Self::of(status) }
     }
 
-    /// How many stages stand, from the first on, with the verdict of the worst; of blocks taken out
-    /// how many may be.
+    /// How many stages stand, from the first on, with the verdict of the worst.
     fn of_stages(s: &Stages) -> Self {
         if let Some(order) = &s.order {
             let (held, least) = (order.most_held(), order.least_held);
@@ -276,16 +275,11 @@ impl RowAnswer {
         }
         let verdicts = || s.stages.iter().map(|s| s.verdict.verdict);
         let first = verdicts().take_while(|v| *v == Verdict::Stable).count();
-        let all = verdicts().filter(|v| *v == Verdict::Stable).count();
-        let open = verdicts().any(|v| v == Verdict::Undecided);
         let status = match verdicts().nth(first) {
-            _ if s.remove_each && open => RowStatus::Undecided,
-            _ if s.remove_each => RowStatus::Found,
             Some(Verdict::Undecided) => RowStatus::Undecided,
             _ => RowStatus::Found,
         };
-        let value = if s.remove_each { all } else { first } as f64;
-        Self { value: (status == RowStatus::Found).then_some(value), ..Self::of(status) }
+        Self { value: (status == RowStatus::Found).then_some(first as f64), ..Self::of(status) }
     }
 
     /// How far it goes: between where it is proved to stand and where to fall. Without an end there

@@ -201,7 +201,7 @@ fn orders_that_mean_nothing_are_refused_with_their_place() {
     }
     for more in [
         json!({ "any_order": true, "order": ["v*"] }),
-        json!({ "any_order": true, "remove_each": true }),
+        json!({ "any_order": true, "toward": [[1, 0, 0]] }),
         json!({ "any_order": true, "all": 4 }),
         json!({ "any_order": true, "tries": 0 }),
         json!({ "any_order": true, "tries": 1_000_000_000_000_u64 }),

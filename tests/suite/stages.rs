@@ -1,5 +1,5 @@
 //! Stages of construction: how many voussoirs stand without centring, rings and centring against
-//! single verdicts, what is held, what can be taken out; invariance, forged results, bad input.
+//! single verdicts, what is held; invariance, forged results, bad input.
 
 use crate::ask::{cuboid, fixed, prove, scene, template};
 use serde_json::{Value, json};
@@ -69,18 +69,16 @@ fn so_many_voussoirs_stand_without_centring() {
 /// Rows of a sweep have no margins, and count the stages that stand.
 #[test]
 fn a_row_counts_the_stages_that_stand() {
-    let row = |scene: &Scene, remove_each: bool| {
-        let question = Question::Stages(StagesOptions { remove_each, ..Default::default() });
+    let row = |scene: &Scene| {
+        let question = Question::Stages(StagesOptions::default());
         question.check_for_one_number().unwrap();
         let model = prepare(scene).unwrap();
         let question = question.for_one_number();
         RowAnswer::of_answer(&ask(&question, scene, &model, &Control::default()).unwrap())
     };
     let arch = arch(20, 0.3, 1000.0, 180.0, 1.0);
-    let RowAnswer { status, value, .. } = row(&arch, false);
+    let RowAnswer { status, value, .. } = row(&arch);
     assert_eq!((status, value), (RowStatus::Found, Some(5.0)));
-    let RowAnswer { status, value, .. } = row(&arch, true);
-    assert_eq!((status, value), (RowStatus::Found, Some(0.0)));
     for (key, value) in
         [("skip_margin", json!(true)), ("skip_held", json!(true)), ("all", json!(4))]
     {
@@ -248,29 +246,6 @@ fn units_shift_and_other_blocks_do_not_change_how_many_stand() {
         far.blocks = with.blocks;
         assert_eq!(first(&far), usual);
     }
-}
-
-#[test]
-fn what_can_be_taken_out_is_what_single_verdicts_say() {
-    let blocks = json!([
-        fixed(cuboid("ground", [6.0, 2.0, 1.0], [0.0, 0.0, -1.0])),
-        cuboid("left", [0.5, 1.0, 1.0], [-1.0, 0.0, 0.0]),
-        cuboid("middle", [0.5, 1.0, 1.0], [0.4, 0.0, 0.0]),
-        cuboid("right", [0.5, 1.0, 1.0], [1.0, 0.0, 0.0]),
-        cuboid("lintel", [2.5, 1.0, 0.3], [0.0, 0.0, 1.0]),
-    ]);
-    let scene = scene(0.6, blocks, json!({}));
-    let file = result(&scene, StagesOptions { remove_each: true, ..Default::default() });
-    let said = file.answer.stages().unwrap();
-    // Without the left post the lintel's middle lies beside the two others.
-    assert_eq!(said.removable.as_deref().unwrap(), ["middle", "right", "lintel"]);
-    for stage in list(&file) {
-        let gone = stage.name.trim_start_matches("without ");
-        assert_eq!(alone(&scene, &|id| id != gone, &[]), stage.stands());
-    }
-    let arch = arch(9, 0.2, 0.7, 180.0, 1.0);
-    let file = result(&arch, StagesOptions { remove_each: true, ..Default::default() });
-    assert_eq!(file.answer.stages().unwrap().removable.as_deref().unwrap(), [""; 0]);
 }
 
 #[test]

@@ -851,11 +851,6 @@ class Stages(Answer):
         return int(self._own["stand_first"])
 
     @property
-    def removable(self) -> list[str] | None:
-        """Of blocks taken out one at a time, those without which the rest stands."""
-        return self._own.get("removable")
-
-    @property
     def order(self) -> list[str] | None:
         """Of an order: the blocks as they are placed; empty where none was found."""
         order = self.to_dict()["answer"]["each_stage"].get("order")
@@ -889,6 +884,32 @@ class Stages(Answer):
                 "tilt_deg": margin(stage, "tilt_deg"),
             }
             for stage in self.to_dict()["answer"]["each_stage"]["list"]
+        ]
+        return pandas.DataFrame(rows)
+
+
+class Without(Answer):
+    """Which single blocks may be taken out with everything left standing?"""
+
+    question = "without"
+
+    @property
+    def _own(self) -> dict[str, Any]:
+        own: dict[str, Any] = self._answer["without"]
+        return own
+
+    @property
+    def removable(self) -> list[str]:
+        """The blocks without which the others stand."""
+        return list(self._own["removable"])
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """The blocks, one row a block: the verdict on what is left, and what moves then."""
+        import pandas
+
+        rows = [
+            {"block": w["block"], "verdict": w["verdict"], "moving": w.get("moving", [])}
+            for w in self._own["each"]
         ]
         return pandas.DataFrame(rows)
 
@@ -1077,6 +1098,7 @@ _KINDS: dict[str, type[Answer]] = {
     "push": Path,
     "kinematic": Kinematic,
     "stages": Stages,
+    "without": Without,
     "simulate": Simulation,
     "shake": Shaken,
     "state": State,

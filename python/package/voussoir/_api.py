@@ -30,6 +30,7 @@ from ._answers import (
     Tilt,
     Verdict,
     Verification,
+    Without,
 )
 from ._ask import (
     assess,
@@ -47,6 +48,7 @@ from ._ask import (
     state,
     thrust,
     tilt,
+    without,
 )
 from ._core import __version__
 from ._errors import InputError, SceneWarning, TimeIsUp, VoussoirError
@@ -94,6 +96,7 @@ __all__ = [
     "Verdict",
     "Verification",
     "VoussoirError",
+    "Without",
     "__version__",
     "assess",
     "assess_many",
@@ -116,4 +119,5 @@ __all__ = [
     "sweep",
     "thrust",
     "tilt",
+    "without",
 ]

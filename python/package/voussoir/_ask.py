@@ -26,6 +26,7 @@ from ._answers import (
     Thrust,
     Tilt,
     of_core,
+    Without,
 )
 from ._errors import SceneWarning
 from ._progress import shown
@@ -409,7 +410,6 @@ def kinematic(
 def stages(
     scene: SceneLike,
     *,
-    remove_each: bool = False,
     any_order: bool = False,
     order: Sequence[str] = (),
     hands: int | None = None,
@@ -427,8 +427,6 @@ def stages(
 
     Parameters
     ----------
-    remove_each : bool
-        In place of the stages of the scene: the scene without each of its free blocks.
     any_order : bool
         In place of the stages of the scene: an order in which its free blocks can be placed one by
         one, so that it stands all the time with as few of them held as can be.
@@ -449,15 +447,14 @@ def stages(
     """
     options: dict[str, Any] = {
         "law": law,
-        "remove_each": remove_each,
         "any_order": any_order,
         "order": [order] if isinstance(order, str) else list(order),
         **({} if hands is None else {"hands": hands}),
         **({} if tries is None else {"tries": tries}),
-        # No tilts are asked for where blocks are taken out or an order is.
+        # No tilts are asked for where an order is.
         **(
             {}
-            if (remove_each or any_order or order) and toward is None and all is None
+            if (any_order or order) and toward is None and all is None
             else _directions(toward, all)
         ),
         "skip_margin": skip_margin,
@@ -466,6 +463,26 @@ def stages(
     question = {"stages": options}
     return Stages(
         _ask(scene, question, keep_all=keep_all, time_limit=time_limit, progress=progress)
+    )
+
+
+def without(
+    scene: SceneLike,
+    *,
+    law: Law = "coulomb",
+    keep_all: bool = False,
+    time_limit: float | None = None,
+    progress: Progress = False,
+) -> Without:
+    """Which single blocks may be taken out with everything left standing?"""
+    return Without(
+        _ask(
+            scene,
+            {"without": {"law": law}},
+            keep_all=keep_all,
+            time_limit=time_limit,
+            progress=progress,
+        )
     )
 
 

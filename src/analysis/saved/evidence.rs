@@ -77,7 +77,7 @@ pub(super) fn of(
             Evidence::Kinematic(kinematic(model, k))
         }
         (Question::Stages(o), Answered::Stages(s)) => {
-            if !o.skip_margin && !o.remove_each && !o.has_order() {
+            if !o.skip_margin && !o.has_order() {
                 said(&o.toward, &mut o.all);
             }
             let toward = directions(model.assembly.gravity, &o.toward, o.all);

@@ -9,6 +9,7 @@
 //! goes on beyond the corner of the other, and half-way between the two faces where both end there.
 
 pub mod drive;
+mod faces;
 pub mod member;
 mod near;
 pub mod reaction;
@@ -19,13 +20,13 @@ mod supports;
 
 use base::tolerance;
 pub use drive::{Demand, Drive, Move, Moves};
+pub use faces::Spot;
 use model::{
     assembly::Pose,
     interface::{ContactFrame, ContactKind, Interface, Interfaces, Model},
 };
 use nalgebra::Vector3;
 pub use side::Side;
-pub use slid::Spot;
 
 /// The joints of a scene at its start, carried along with their blocks.
 #[derive(Clone, Debug)]
@@ -38,7 +39,7 @@ pub struct Carried<'a> {
     /// points.
     pub joints: Vec<Interface>,
     /// The faces that meet in each joint.
-    faces: Vec<slid::Faces>,
+    faces: Vec<faces::Faces>,
 }
 
 /// A displaced scene.
@@ -70,8 +71,8 @@ impl<'a> Carried<'a> {
     pub fn new(start: &'a Model) -> Self {
         let list = || start.interfaces.list.iter();
         let sides = list().map(|f| side::sides(&start.assembly, f)).collect();
-        let mut faces: Vec<slid::Faces> =
-            list().map(|f| slid::Faces::of(&start.assembly, f)).collect();
+        let mut faces: Vec<faces::Faces> =
+            list().map(|f| faces::Faces::of(&start.assembly, f)).collect();
         let mut joints = start.interfaces.list.clone();
         for (joint, own) in near::joints(&start.assembly, &start.interfaces.list) {
             joints.push(joint);

@@ -1,6 +1,6 @@
 //! Faces that do not touch at the start and may come to: joints without points.
 
-use super::slid::{Faces, flat};
+use super::faces::{Faces, flat};
 use base::plane::{clip, polygon, polygon::P2};
 use model::{
     assembly::{Assembly, Block, Facet, Polyhedron, Solid},

@@ -51,8 +51,6 @@ pub struct StagesAnswer {
     pub least_load_factor: Option<LeastMargin>,
     /// The stage that falls at the least tilt, in degrees, where any was asked for it.
     pub least_tilt_deg: Option<LeastMargin>,
-    /// Of blocks taken out one at a time: those without which the rest stands.
-    pub removable: Option<Vec<String>>,
     /// Of an order: the most blocks that are held at a time; absent where none was found.
     pub most_held: Option<usize>,
     /// Of an order: with fewer held at a time there is none, as far as the search went.
@@ -79,9 +77,6 @@ pub struct LeastMargin {
 #[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct StagesResult {
-    /// The stages are the scene without each of its free blocks.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub remove_each: bool,
     /// The stages are those of this order.
     pub order: Option<Order>,
     /// So many blocks can be held at a time, where that was said.
@@ -234,7 +229,6 @@ impl StagesResult {
     pub fn asked(&self) -> AskedStages<'_> {
         match &self.order {
             Some(order) => AskedStages::InOrder(&order.placed),
-            None if self.remove_each => AskedStages::RemoveEach,
             None => AskedStages::OfScene,
         }
     }
@@ -249,7 +243,6 @@ impl StagesResult {
             stand: 0,
             least_load_factor: None,
             least_tilt_deg: None,
-            removable: None,
             most_held: None,
             least_held: self.order.as_ref().map(|o| o.least_held),
             hands: self.hands,
@@ -277,10 +270,6 @@ impl StagesResult {
         let stands = |s: &&StageResult| s.stands() == Verdict::Stable;
         let grades = list.iter().map(|s| s.verdict.answer.proof());
         let proof = grades.reduce(|a, b| Some(a?.and(b?))).flatten();
-        let removable = self.remove_each.then(|| {
-            let names = list.iter().filter(stands).map(|s| s.name.trim_start_matches(WITHOUT));
-            names.map(String::from).collect()
-        });
         Some(StagesAnswer {
             verdict,
             worst,
@@ -289,7 +278,6 @@ impl StagesResult {
             stand: list.iter().filter(stands).count(),
             least_load_factor,
             least_tilt_deg,
-            removable,
             most_held: self.order.as_ref().and_then(Order::most_held),
             least_held: self.order.as_ref().map(|o| o.least_held),
             hands: self.hands,
@@ -297,9 +285,6 @@ impl StagesResult {
         })
     }
 }
-
-/// How the names of stages without a block begin.
-const WITHOUT: &str = "without ";
 
 /// Every stage is made anew from the scene, and its answers are derived there.
 pub(super) fn derive(
@@ -313,7 +298,6 @@ pub(super) fn derive(
     }
     let asked = match &e.order {
         Some(order) => AskedStages::InOrder(&order.placed),
-        None if o.remove_each => AskedStages::RemoveEach,
         None => AskedStages::OfScene,
     };
     let here = assembly::asked_stages(asked, scene, &model.assembly).map_err(|e| e.to_string())?;
@@ -340,8 +324,7 @@ pub(super) fn derive(
             evidence,
         ));
     }
-    let result =
-        StagesResult { remove_each: o.remove_each, order: e.order.clone(), hands: o.hands, list };
+    let result = StagesResult { order: e.order.clone(), hands: o.hands, list };
     let answer = result.answer();
     d.check.claimed = answer.verdict != Verdict::Undecided;
     let mut told = Told::new(model, Answer::Stages(Box::new(answer)), &Arc::default());
@@ -393,7 +376,7 @@ fn stage(
     verdict.motion = motion(&e.standing, said);
     verdict.in_words(model, proven.as_ref());
     d.part(name.clone(), f);
-    let asks_margin = stands && !o.skip_margin && !o.remove_each && !o.has_order();
+    let asks_margin = stands && !o.skip_margin && !o.has_order();
     let no_margin = no_tilt(model).filter(|_| asks_margin);
     let margin =
         (asks_margin && no_margin.is_none()).then(|| margin(d, o, name, model, e)).flatten();

@@ -17,9 +17,6 @@ use serde_with::skip_serializing_none;
 pub struct StagesOptions {
     /// How joints slide.
     pub law: Law,
-    /// In place of the stages of the scene: the scene without each of its free blocks.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
-    pub remove_each: bool,
     /// In place of the stages of the scene: an order in which its free blocks can be placed one by
     /// one, so that it stands all the time with as few of them held as can be.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
@@ -61,18 +58,14 @@ impl Asked for StagesOptions {
     fn check(&self, path: &JsonPath) -> Result<(), InputError> {
         let refuse = |key: &str, text: &str| Err(InputError::at(path.key(key), text));
         let tilts = self.all.is_some() || !self.toward.is_empty();
-        if self.remove_each && tilts {
-            return refuse("remove_each", "no tilts are asked for where blocks are taken out");
-        }
         if self.any_order && !self.order.is_empty() {
             return refuse("any_order", "an order is given and sought");
         }
-        match (self.has_order(), self.remove_each) {
-            (true, true) => refuse("remove_each", "blocks are placed and taken out"),
-            (true, false) if tilts => refuse("toward", "no tilts are asked for where an order is"),
-            (false, _) if self.hands.is_some() => refuse("hands", "no order is asked for"),
-            (false, _) if self.tries.is_some() => refuse("tries", "no order is asked for"),
-            (true, false) if self.tries.is_some_and(|n| !(1..=MOST_TRIES).contains(&n)) => {
+        match self.has_order() {
+            true if tilts => refuse("toward", "no tilts are asked for where an order is"),
+            false if self.hands.is_some() => refuse("hands", "no order is asked for"),
+            false if self.tries.is_some() => refuse("tries", "no order is asked for"),
+            true if self.tries.is_some_and(|n| !(1..=MOST_TRIES).contains(&n)) => {
                 refuse("tries", &format!("must be from 1 to {MOST_TRIES}"))
             }
             _ => check_directions(path, &self.toward, self.all),
@@ -88,10 +81,9 @@ impl Asked for StagesOptions {
     }
 
     fn quantity(&self) -> Option<&'static str> {
-        Some(match (self.remove_each, self.has_order()) {
-            (true, _) => "blocks that may be taken out",
-            (_, true) => "blocks held at a time",
-            _ => "stages that stand before the first that does not",
+        Some(match self.has_order() {
+            true => "blocks held at a time",
+            false => "stages that stand before the first that does not",
         })
     }
 

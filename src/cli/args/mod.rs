@@ -158,9 +158,7 @@ pub enum Verb {
     /// The scene is all that ever stands; its "stages" add, remove, hold and release blocks, members
     /// and loads, centring among them. Every stage is answered with its proof; where it stands, with
     /// the load factor of its live load, or else the least tilt, and with the least forces on what it
-    /// holds. With --remove-each: which blocks can be taken out, one at a time. Exit code 0 if every
-    /// stage stands (or some block can be taken out), 1 if one does not (or none can be), 3 if that
-    /// stays open.
+    /// holds. Exit code 0 if every stage stands, 1 if one does not, 3 if that stays open.
     Stages(Stages),
     /// Which single blocks may be taken out with everything left standing?
     ///

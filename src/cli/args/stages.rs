@@ -14,17 +14,13 @@ pub struct Stages {
     pub common: Common,
     #[command(flatten)]
     pub pictures: Pictures,
-    /// In place of the stages of the scene: which of its free blocks can be taken out, one at a time.
-    /// Pictures show them by colour.
-    #[arg(long)]
-    pub remove_each: bool,
     /// In place of the stages of the scene: an order in which its free blocks can be placed one by one
     /// so that it stands all the time, with as few of them held as can be.
-    #[arg(long, conflicts_with = "remove_each")]
+    #[arg(long)]
     pub any_order: bool,
     /// The same for a given order: every free block once, first placed first, `*` for any letters of a
     /// name (all of these in the order of the scene). What has to be held is sought.
-    #[arg(long, value_name = "ID,…", value_delimiter = ',', conflicts_with_all = ["remove_each", "any_order"])]
+    #[arg(long, value_name = "ID,…", value_delimiter = ',', conflicts_with = "any_order")]
     pub order: Vec<String>,
     /// So many blocks can be held at a time: the exit code says whether that is enough [default: any
     /// number].
@@ -35,21 +31,21 @@ pub struct Stages {
     #[arg(long, value_name = "N", requires = "asks_order", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub tries: Option<u32>,
     /// Tilts towards this direction (its part across gravity); may be given several times.
-    #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true, conflicts_with_all = ["remove_each", "any_order", "order"], value_parser = direction)]
+    #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true, conflicts_with_all = ["any_order", "order"], value_parser = direction)]
     pub toward: Vec<[f64; 3]>,
     /// Tilts towards this many directions, evenly spread, the first along x [default: 8].
-    #[arg(long, value_name = "N", conflicts_with_all = ["toward", "remove_each", "any_order", "order"], value_parser = clap::value_parser!(u16).range(1..=3600))]
+    #[arg(long, value_name = "N", conflicts_with_all = ["toward", "any_order", "order"], value_parser = clap::value_parser!(u16).range(1..=3600))]
     pub all: Option<u16>,
     /// No load factors and no tilts: verdicts alone.
-    #[arg(long, conflicts_with_all = ["toward", "all", "remove_each", "any_order", "order", "chart"])]
+    #[arg(long, conflicts_with_all = ["toward", "all", "any_order", "order", "chart"])]
     pub skip_margin: bool,
     /// No least forces on what stages hold.
-    #[arg(long, conflicts_with = "remove_each")]
+    #[arg(long)]
     pub skip_held: bool,
     /// Write the stages to this file, comma-separated, a row a stage.
     #[arg(long, value_name = "FILE", value_parser = output(Written::Csv))]
     pub csv: Option<PathBuf>,
     /// Draw the margins, stage by stage, to this file (SVG).
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["remove_each", "any_order", "order"], value_parser = output(Written::Svg))]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["any_order", "order"], value_parser = output(Written::Svg))]
     pub chart: Option<PathBuf>,
 }

@@ -22,8 +22,6 @@ pub struct Placed {
 pub enum AskedStages<'a> {
     /// Those that the scene names.
     OfScene,
-    /// The whole structure without each of its free blocks.
-    RemoveEach,
     /// One for each block that is placed.
     InOrder(&'a [Placed]),
 }

@@ -35,9 +35,6 @@ impl View {
         if list.is_empty() || list.len() != result.list.len() {
             return;
         }
-        if result.remove_each {
-            return;
-        }
         self.film = (0..list.len()).map(|k| self.frame((k + 1) as f64)).collect();
         self.course = Course {
             name: "stage by stage".into(),

@@ -8,14 +8,15 @@
 
 mod side;
 mod table;
+mod terms;
 
 use super::answer::followable;
 use crate::{Control, LoadFactor, Proved, limit};
-use base::error::{InputError, JsonPath};
+use base::error::InputError;
 use check::{
     kinematic::{Mass, MassKind, quake},
     rocking::Machine,
-    terms::{Law, Outcome},
+    terms::Law,
 };
 use model::{
     assembly::Assembly,
@@ -24,6 +25,8 @@ use model::{
 use nalgebra::Vector3;
 use scene::Scene;
 use side::Side;
+pub use terms::Exactness;
+use terms::{Beside, found, refuse};
 
 /// What a machine is asked for.
 #[derive(Clone, Debug)]
@@ -35,15 +38,6 @@ pub struct MachineOptions {
     pub control: Option<(String, Option<Vector3<f64>>)>,
     /// What is left of the speed at every impact; by default what conserves momentum.
     pub restitution: Option<f64>,
-}
-
-/// How far a machine is the scene.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Exactness {
-    /// The law of the rigid blocks without sliding and without bouncing.
-    Exact,
-    /// An idealisation, and why.
-    Idealised(String),
 }
 
 /// A scene as a machine.
@@ -183,10 +177,6 @@ fn chosen(
     Ok(Chosen { block, local: (own, point), point })
 }
 
-fn refuse(text: String) -> InputError {
-    InputError::at(JsonPath::root(), text)
-}
-
 /// The unit direction across gravity, and up.
 fn directions(
     assembly: &Assembly,
@@ -206,15 +196,6 @@ fn directions(
     Ok((across.normalize(), up))
 }
 
-/// A mass that goes with a block beside the block's own.
-struct Beside {
-    block: usize,
-    /// From the block's centre of mass at the start, m.
-    arm: Vector3<f64>,
-    /// kg.
-    mass: f64,
-}
-
 /// Masses beside those of the blocks that are kept.
 fn beside(masses: &[Mass], kept: &[usize], gravity: f64) -> Vec<Beside> {
     let others = masses.iter().filter(|m| m.kind != MassKind::Block);
@@ -224,20 +205,6 @@ fn beside(masses: &[Mass], kept: &[usize], gravity: f64) -> Vec<Beside> {
             Some(Beside { block, arm: m.arm, mass: m.weight / gravity })
         })
         .collect()
-}
-
-/// Whether there is a load factor above zero.
-fn found(proof: &Proved<LoadFactor>, where_: &str) -> Result<(), InputError> {
-    let text = match proof.outcome {
-        Outcome::Found if proof.bracket.lower > 0.0 => return Ok(()),
-        Outcome::Found | Outcome::Impossible => "the scene does not stand by itself",
-        Outcome::Unbounded => {
-            return Err(refuse(format!("{where_} no acceleration moves anything")));
-        }
-        Outcome::Undecided => "its load factor was not found",
-    };
-    Err(refuse(format!("{text}: there is no mechanism to follow in time"))
-        .hint("ask `voussoir assess` and `voussoir limit` first"))
 }
 
 /// Free blocks of the independent part that moves.

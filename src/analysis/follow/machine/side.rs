@@ -1,6 +1,9 @@
 //! The mechanism of one sense.
 
-use super::{Beside, Exactness, refuse, table};
+use super::{
+    table,
+    terms::{Beside, Exactness, found, refuse},
+};
 use crate::{
     LoadFactor, Proved,
     follow::{
@@ -60,7 +63,7 @@ impl<'a> Side<'a> {
         if proof.outcome == Outcome::Unbounded {
             return Ok(None);
         }
-        super::found(proof, sense)?;
+        found(proof, sense)?;
         let carried = Carried::new(model);
         let blocks = &model.assembly.blocks;
         let poses = vec![Pose::start(); blocks.len()];

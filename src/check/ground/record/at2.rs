@@ -2,8 +2,9 @@
 //! and the time between them; then samples, several a line.
 
 use super::{
-    Format, Unit,
-    raw::{Column, Raw, error, number, shortened, words},
+    format::Format,
+    raw::{Column, Raw, counted, error, number, shortened, words},
+    unit::{UNITS, Unit},
 };
 use base::error::InputError;
 
@@ -41,7 +42,7 @@ pub(super) fn read(lines: &[(usize, String)]) -> Result<Raw, InputError> {
                     *line,
                     format!("{:?} is no unit of acceleration", shortened(name)),
                 )
-                .hint(format!("units are {}", super::UNITS)));
+                .hint(format!("units are {}", UNITS)));
             }
         }
     }
@@ -53,7 +54,7 @@ pub(super) fn read(lines: &[(usize, String)]) -> Result<Raw, InputError> {
         }
     }
     let mut findings = Vec::new();
-    super::counted(*at, "NPTS", count, &mut column, &mut findings)?;
+    counted(*at, "NPTS", count, &mut column, &mut findings)?;
     Ok(Raw { format: Format::Peer, step, columns: vec![column], unit_line, findings })
 }
 

@@ -2,8 +2,9 @@
 //! blanks; a header with units in brackets, or a comment such as `# units: m/s2`.
 
 use super::{
-    Format, Unit,
+    format::Format,
     raw::{Column, Raw, error, number, shortened},
+    unit::{UNITS, Unit},
 };
 use base::error::{Finding, FindingCode, InputError};
 
@@ -21,7 +22,7 @@ pub(super) fn read(lines: &[(usize, String)]) -> Result<Raw, InputError> {
             if let Some(name) = named(comment) {
                 let unit = Unit::read(name).ok_or_else(|| {
                     error(*line, format!("{:?} is no unit of acceleration", shortened(name)))
-                        .hint(format!("units are {}", super::UNITS))
+                        .hint(format!("units are {}", UNITS))
                 })?;
                 (unit_of_all, unit_line) = (Some(unit), *line);
             }
@@ -66,7 +67,7 @@ pub(super) fn read(lines: &[(usize, String)]) -> Result<Raw, InputError> {
             } else {
                 units[k - 1] = Some(Unit::read(name).ok_or_else(|| {
                     error(*line, format!("{:?} is no unit of acceleration", shortened(name)))
-                        .hint(format!("units are {}", super::UNITS))
+                        .hint(format!("units are {}", UNITS))
                 })?);
             }
         }

@@ -1,8 +1,9 @@
 //! ESM and ITACA ASCII: lines `KEY: value`, then one sample a line.
 
 use super::{
-    Format, Unit,
-    raw::{Column, Raw, error, number, shortened},
+    format::Format,
+    raw::{Column, Raw, counted, error, number, shortened},
+    unit::{UNITS, Unit},
 };
 use base::error::InputError;
 
@@ -65,7 +66,7 @@ pub(super) fn read(lines: &[(usize, String)]) -> Result<Raw, InputError> {
             line,
             Unit::read(name).ok_or_else(|| {
                 error(line, format!("{:?} is no unit of acceleration", shortened(name)))
-                    .hint(format!("units are {}", super::UNITS))
+                    .hint(format!("units are {}", UNITS))
             })?,
         )),
         None => None,
@@ -82,7 +83,7 @@ pub(super) fn read(lines: &[(usize, String)]) -> Result<Raw, InputError> {
         column.lines.push(*line);
     }
     let mut findings = Vec::new();
-    super::counted(count_line, "NDATA", count, &mut column, &mut findings)?;
+    counted(count_line, "NDATA", count, &mut column, &mut findings)?;
     let unit_line = unit.map_or(last, |u| u.0);
     Ok(Raw { format: Format::Esm, step, columns: vec![column], unit_line, findings })
 }

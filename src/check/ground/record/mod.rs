@@ -6,6 +6,7 @@
 mod at2;
 mod csv;
 mod esm;
+mod format;
 mod raw;
 mod unit;
 
@@ -14,21 +15,11 @@ use base::{
     error::{Finding, FindingCode, InputError, JsonPath},
     limits,
 };
+pub use format::Format;
 use nalgebra::Vector3;
 use raw::{Column, Raw, error};
 use std::path::Path;
 pub use unit::{STANDARD_GRAVITY, UNITS, Unit};
-
-/// What a file was read as.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
-    /// A table.
-    Csv,
-    /// PEER AT2.
-    Peer,
-    /// ESM or ITACA ASCII.
-    Esm,
-}
 
 /// A record.
 #[derive(Clone, Debug, PartialEq)]
@@ -247,33 +238,6 @@ fn raw_of(name: &str, bytes: &[u8]) -> Result<Raw, InputError> {
     } else {
         csv::read(&lines)
     }
-}
-
-/// As many samples as are announced.
-fn counted(
-    line: usize,
-    key: &str,
-    count: usize,
-    column: &mut Column,
-    findings: &mut Vec<Finding>,
-) -> Result<(), InputError> {
-    let there = column.values.len();
-    if there < count {
-        return Err(error(
-            column.lines.last().copied().unwrap_or(line),
-            format!("the file ends after {there} samples; {key} in line {line} announces {count}"),
-        )
-        .hint("the file is cut off: get it again"));
-    }
-    if there > count {
-        findings.push(Finding::new(
-            FindingCode::LeftOut,
-            format!("{there} samples, {key} announces {count}: those beyond are left out"),
-        ));
-        column.values.truncate(count);
-        column.lines.truncate(count);
-    }
-    Ok(())
 }
 
 /// The greatest value and its line.

@@ -1,7 +1,7 @@
 //! What a file says, before units; and how its lines are read.
 
-use super::{Format, Unit};
-use base::error::{Finding, InputError, JsonPath};
+use super::{format::Format, unit::Unit};
+use base::error::{Finding, FindingCode, InputError, JsonPath};
 
 /// What a file says.
 #[derive(Clone, Debug)]
@@ -65,4 +65,31 @@ pub(super) fn lines(bytes: &[u8]) -> Result<Vec<(usize, String)>, InputError> {
 /// Words between commas and blanks.
 pub(super) fn words(line: &str) -> impl Iterator<Item = &str> {
     line.split(|c: char| c.is_whitespace() || c == ',').filter(|w| !w.is_empty())
+}
+
+/// As many samples as are announced.
+pub(super) fn counted(
+    line: usize,
+    key: &str,
+    count: usize,
+    column: &mut Column,
+    findings: &mut Vec<Finding>,
+) -> Result<(), InputError> {
+    let there = column.values.len();
+    if there < count {
+        return Err(error(
+            column.lines.last().copied().unwrap_or(line),
+            format!("the file ends after {there} samples; {key} in line {line} announces {count}"),
+        )
+        .hint("the file is cut off: get it again"));
+    }
+    if there > count {
+        findings.push(Finding::new(
+            FindingCode::LeftOut,
+            format!("{there} samples, {key} announces {count}: those beyond are left out"),
+        ));
+        column.values.truncate(count);
+        column.lines.truncate(count);
+    }
+    Ok(())
 }

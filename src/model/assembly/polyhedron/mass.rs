@@ -10,7 +10,7 @@
 //! * J. Blow, A. Binstock, *How to find the inertia tensor (or other mass properties) of a 3D solid
 //!   body represented by a triangle mesh*, 2004.
 
-use super::{Polyhedron, ShapeError, surface::Surface};
+use super::{message::ShapeError, surface::Surface};
 use nalgebra::{Matrix3, Vector3};
 
 /// Volume, centroid and inertia for unit density.
@@ -62,13 +62,16 @@ const SLACK: f64 = 1e-6;
 
 /// Refuses what no body can have: more volume than its box, its centroid outside of the box, a
 /// negative second moment. Such a surface winds around some places more than once and around others
-/// backwards, which warped faces hide from the tests that see them as plane. `solid` has the
-/// corners of the facets that are left, which spikes of no width do not reach.
-pub(super) fn refuse_impossible(surface: &Surface, solid: &Polyhedron) -> Result<(), ShapeError> {
-    let mass = &solid.mass;
+/// backwards, which warped faces hide from the tests that see them as plane. `corners` are those of
+/// the facets that are left, which spikes of no width do not reach.
+pub(super) fn refuse_impossible(
+    surface: &Surface,
+    mass: &MassProperties,
+    corners: &[Vector3<f64>],
+) -> Result<(), ShapeError> {
     let (low, high) =
         bounds(surface.faces.iter().flat_map(|f| &f.corners).map(|&c| surface.point(c)));
-    let (least, most) = bounds(solid.vertices.iter().copied());
+    let (least, most) = bounds(corners.iter().copied());
     let slack = SLACK * surface.size;
     let inside = (0..3).all(|k| (least[k] - slack..=most[k] + slack).contains(&mass.centroid[k]));
     // Per volume and size², so that nothing leaves the range of numbers.

@@ -94,13 +94,12 @@ pub fn asked_stages(
     assembly: &Assembly,
 ) -> Result<Vec<Stage>, InputError> {
     match asked {
-        AskedStages::RemoveEach => Stage::removals(assembly),
         AskedStages::InOrder(placed) => Stage::in_order(assembly, placed),
         AskedStages::OfScene => {
             let all = stages(scene, assembly)?;
             if all.is_empty() {
                 return Err(InputError::at(JsonPath::root(), "the scene has no stages").hint(
-                    "add \"stages\": [{ \"add_one_by_one\": [\"*\"] }] to it, or ask with --remove-each or --any-order",
+                    "add \"stages\": [{ \"add_one_by_one\": [\"*\"] }] to it, or ask with --any-order, or `voussoir without`",
                 ));
             }
             Ok(all)

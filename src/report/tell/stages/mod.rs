@@ -60,9 +60,6 @@ pub(super) fn title(file: &ResultFile) -> (String, Role) {
     if let Some(order) = &result.order {
         return ordered(a, order);
     }
-    if let Some(removable) = &a.removable {
-        return removals(a, removable);
-    }
     let before = match a.stand_first {
         0 => "none before it stands".to_string(),
         n => format!("the first {n} of {} stand", a.stages),
@@ -84,26 +81,6 @@ pub(super) fn title(file: &ResultFile) -> (String, Role) {
                 n => format!("stands at all {n} stages"),
             };
             (std::iter::once(all).chain(least).collect::<Vec<_>>().join("; "), Role::Good)
-        }
-    }
-}
-
-/// The first line about blocks that are taken out.
-fn removals(a: &StagesAnswer, removable: &[String]) -> (String, Role) {
-    let open = a.proof.is_none();
-    let names = match removable.len() {
-        n if n > NAMES => format!("{}, …", removable[..NAMES].join(", ")),
-        _ => removable.join(", "),
-    };
-    match (removable.len(), open) {
-        (0, false) => (format!("none of {} can be taken out", count(a.stages, "block")), Role::Bad),
-        (0, true) => ("no block is proved to be one that can be taken out".into(), Role::Unsure),
-        (n, _) => {
-            let text = format!(
-                "{n} of {} can be taken out one at a time: {names}",
-                count(a.stages, "block")
-            );
-            (text, if open { Role::Unsure } else { Role::Value })
         }
     }
 }
@@ -168,10 +145,9 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
     if let Some(order) = &result.order {
         page.paragraph(&format!("Blocks are placed one after the other, each where the scene puts it, and what is held is held without moving; every stage has its proof. How a block comes to its place between the others, and what is held while hands change from one stage to the next, is not asked. That fewer held do not do is the outcome of a search (up to {} sets of blocks), not of a proof; a mechanism goes on as long as none of the blocks that move in it is held.", order.tries));
     }
-    page.paragraph(match result.remove_each {
-        true => "Each block is taken out by itself and the rest asked whether it stands, with a proof. Two blocks that can each be taken out cannot always be taken out together.",
-        false => "Every stage is a scene of its own, with a proof: what stands at it, under the loads that are there, with what is held. Blocks are rigid, and stand where the scene puts them: how a stage before has settled is not in it.",
-    });
+    page.paragraph(
+        "Every stage is a scene of its own, with a proof: what stands at it, under the loads that are there, with what is held. Blocks are rigid, and stand where the scene puts them: how a stage before has settled is not in it.",
+    );
     if result.list.iter().any(|s| s.margin.is_some()) {
         page.paragraph("Margins are load factors of the live load where a stage has one, else the least tilt at which it falls.");
     }
@@ -185,10 +161,10 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
     let Some((a, result)) = said(file) else { return };
     if let Some(worst) = result.list.iter().find(|s| s.name == a.worst) {
         let known = a.verdict != Verdict::Stable || worst.margin.is_some();
-        if !result.remove_each && known {
+        if known {
             page.row("worst", [line(worst)]);
         }
-        if let Some(m) = worst.verdict.mechanism.as_ref().filter(|_| !result.remove_each) {
+        if let Some(m) = &worst.verdict.mechanism {
             let moving = match m.moving.len() {
                 n if n > NAMES => format!("{}, … ({n} in all)", m.moving[..NAMES].join(", ")),
                 _ => m.moving.join(", "),
@@ -196,36 +172,18 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
             page.row("moves", [moving]);
         }
     }
-    if result.remove_each {
-        let of = |v: Verdict| -> Vec<String> {
-            let list = result.list.iter().filter(|s| s.stands() == v);
-            list.map(|s| s.name.trim_start_matches("without ").to_string()).collect()
-        };
-        for (label, verdict) in [
-            ("taken out", Verdict::Stable),
-            ("falls", Verdict::Unstable),
-            ("pre-stress", Verdict::Conditional),
-            ("undecided", Verdict::Undecided),
-        ] {
-            let list = of(verdict);
-            if !list.is_empty() {
-                page.row(label, [list.join(", ")]);
-            }
-        }
-    } else {
-        if let Some(order) = &result.order {
-            let placed: Vec<&str> = order.placed.iter().map(|p| p.block.as_str()).collect();
-            page.row("order", [placed.join(", ")]);
-        }
-        let lines: Vec<String> = result.list.iter().map(line).collect();
-        page.row("stages", cut(&lines, STAGES, options));
-        let held = result.list.iter().flat_map(|s| {
-            let touching = |id: &&String| s.least_forces.iter().any(|h| h.block == **id);
-            s.held.iter().filter(touching).map(move |id| (s, id))
-        });
-        let held: Vec<String> = held.map(|(s, id)| holds(s, id)).collect();
-        page.row("held with", cut(&held, NAMES, options));
+    if let Some(order) = &result.order {
+        let placed: Vec<&str> = order.placed.iter().map(|p| p.block.as_str()).collect();
+        page.row("order", [placed.join(", ")]);
     }
+    let lines: Vec<String> = result.list.iter().map(line).collect();
+    page.row("stages", cut(&lines, STAGES, options));
+    let held = result.list.iter().flat_map(|s| {
+        let touching = |id: &&String| s.least_forces.iter().any(|h| h.block == **id);
+        s.held.iter().filter(touching).map(move |id| (s, id))
+    });
+    let held: Vec<String> = held.map(|(s, id)| holds(s, id)).collect();
+    page.row("held with", cut(&held, NAMES, options));
     let proved = result.list.iter().filter(|s| s.verdict.certificate.claim.is_some()).count();
     let grade = a.proof.map_or(String::new(), |g| format!("; the weakest: {g}"));
     let text = format!(

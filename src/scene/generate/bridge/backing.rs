@@ -3,7 +3,10 @@
 //! slide, the joints say. Cut where the joints of the ring are, so that each lies against one
 //! voussoir on either side.
 
-use super::{Plan, SpanPlan, chord::Chord};
+use super::{
+    chord::Chord,
+    plan::{Plan, SpanPlan},
+};
 use crate::{
     BlockSpec, Shape,
     generate::{check::TemplatePath, midline::Xz, numbered, support},

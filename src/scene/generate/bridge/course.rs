@@ -1,7 +1,11 @@
 //! Piers, and the course of the upper surface of a bridge: the chords of the extrados and the tops of
 //! the piers, from left to right.
 
-use super::{PierPlan, Plan, SpanPlan, backing::Masonry, chord::Chord, voussoir};
+use super::{
+    backing::Masonry,
+    chord::Chord,
+    plan::{PierPlan, Plan, SpanPlan, voussoir},
+};
 use crate::{
     generate::check::TemplatePath,
     template::{Bridge, BridgePier},
@@ -46,7 +50,7 @@ pub(super) fn chords(bridge: &Bridge, plan: &Plan, masonry: Option<&Masonry>) ->
 
 /// A pier with its left springing at `edge`; its last points are the right and the left end of its top
 /// and the left springing.
-pub(super) fn pier(
+fn pier(
     place: &TemplatePath,
     pier: &BridgePier,
     spans: [&SpanPlan; 2],
@@ -81,4 +85,47 @@ pub(super) fn pier(
     let footing =
         vec![[outer_left, below], [outer_right, below], [outer_right, low], [outer_left, low]];
     Ok(PierPlan { body, footing })
+}
+
+impl Plan {
+    pub fn of(bridge: &Bridge) -> Result<Self, InputError> {
+        let place = TemplatePath::template("bridge");
+        place.length("width", bridge.width)?;
+        place.count("spans", bridge.spans.len(), 1)?;
+        if bridge.piers.len() + 1 != bridge.spans.len() {
+            return Err(place.error(
+                "piers",
+                format!(
+                    "{} spans have {} piers between them, got {}",
+                    bridge.spans.len(),
+                    bridge.spans.len() - 1,
+                    bridge.piers.len()
+                ),
+                "one pier between each two spans",
+            ));
+        }
+        let counts: Option<usize> = bridge
+            .spans
+            .iter()
+            .try_fold(0_usize, |n, s| n.checked_add(s.rings.checked_mul(s.voussoirs)?));
+        place.total("spans", &[counts.unwrap_or(usize::MAX)])?;
+        let mut spans = Vec::new();
+        for (k, span) in bridge.spans.iter().enumerate() {
+            spans.push(SpanPlan::of(&TemplatePath(place.0.key("spans").index(k)), span)?);
+        }
+        let clear: f64 = spans.iter().map(|s: &SpanPlan| s.clear_span).sum();
+        let total = clear + bridge.piers.iter().map(|p| p.width).sum::<f64>();
+        let mut edge = -0.5 * total;
+        let mut piers = Vec::new();
+        for k in 0..spans.len() {
+            let half = 0.5 * spans[k].clear_span;
+            spans[k].center = edge + half;
+            edge += 2.0 * half;
+            let Some(own) = bridge.piers.get(k) else { break };
+            let place = TemplatePath(place.0.key("piers").index(k));
+            piers.push(pier(&place, own, [&spans[k], &spans[k + 1]], edge)?);
+            edge += own.width;
+        }
+        Ok(Self { spans, piers })
+    }
 }

@@ -11,10 +11,10 @@
 //! (`backing`), on whose top and back the fill lies as on the extrados.
 
 use super::{
-    Plan,
     backing::{self, Haunching, Masonry},
     chord::Chord,
     course::chords,
+    plan::Plan,
     pressure::Pressure,
 };
 use crate::{

@@ -3,8 +3,8 @@
 use analysis::{
     Answer, AssessOptions, Assessment, Control, ControlPoint, CriticalOptions, KinematicOptions,
     Law, LimitOptions, Limited, Proved, PushOptions, Question, SettleOptions, SimulateOptions,
-    StagesOptions, StateOptions, SupportMove, ThrustOptions, TiltOptions, ask, assess,
-    recompute::Solvers, saved,
+    StagesOptions, StateOptions, SupportMove, ThrustOptions, TiltOptions, WithoutOptions, ask,
+    assess, recompute::Solvers, saved,
 };
 use base::error::InputError;
 use check::proof::{read::read_str, verify::verify_model};
@@ -87,10 +87,8 @@ fn questions(model: &Model, turn: usize) -> Vec<Question> {
             between: [0.02, 1.5],
             scan: Some(4),
         })),
-        3 => list.push(Question::Stages(StagesOptions {
-            remove_each: blocks.len() < 12,
-            ..StagesOptions::default()
-        })),
+        3 if blocks.len() < 12 => list.push(WithoutOptions::default().into()),
+        3 => list.push(Question::Stages(StagesOptions::default())),
         4 => list.push(Question::Simulate(SimulateOptions {
             fast: true,
             seconds: Some(0.5),
