@@ -7,7 +7,7 @@ use super::{
     terminal::{self, Terminal},
 };
 use clap::{CommandFactory, FromArgMatches};
-use std::{ffi::OsString, path::PathBuf, sync::OnceLock};
+use std::{ffi::OsString, path::PathBuf};
 
 /// How the program that carries the command keeps to `--max-memory` and to the limit of its control
 /// group: both are called before anything large is there.
@@ -21,9 +21,6 @@ pub struct Memory {
     /// Heeds the limit of the control group, where that is lower than the one given.
     pub heed_group: fn(Option<u64>),
 }
-
-/// How the command is called again, where that is not by the path of this process.
-static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
 
 /// Runs `voussoir` with these arguments, the first of them the program's own name, and says how it
 /// ended. It writes to standard output and standard error, and may end the process (`--time-limit`,
@@ -59,13 +56,8 @@ pub fn run_as(
     arguments: impl IntoIterator<Item = OsString>,
     memory: Memory,
 ) -> Exit {
-    let _ = PROGRAM.set(program);
+    super::program::called_by(program);
     run(arguments, memory)
-}
-
-/// The path by which this command is called.
-pub(super) fn program() -> std::io::Result<PathBuf> {
-    PROGRAM.get().cloned().map_or_else(std::env::current_exe, Ok)
 }
 
 fn dispatch(verb: &Verb, terminal: &Terminal) -> anyhow::Result<Exit> {

@@ -18,10 +18,12 @@ mod http;
 mod knobs;
 mod reply;
 mod server;
+mod thread;
 mod worker;
 
 use crate::import::Reach;
 use std::{io, net::SocketAddr, path::Path, sync::Arc};
+use thread::thread;
 
 /// A page about a scene file that is ready to be served.
 pub struct Live {
@@ -55,8 +57,4 @@ impl Live {
     pub fn serve(&self) {
         self.server.run();
     }
-}
-
-fn thread(name: &str, work: impl FnOnce() + Send + 'static) -> io::Result<()> {
-    std::thread::Builder::new().name(name.into()).spawn(work).map(drop)
 }

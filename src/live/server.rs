@@ -3,7 +3,8 @@
 use super::{
     desk::{Desk, Edits},
     gate::{Gate, Refusal, Route},
-    http, knobs, thread,
+    http, knobs,
+    thread::thread,
 };
 use crate::{analysis::Question, report::page};
 use serde::Deserialize;

@@ -6,7 +6,7 @@ use crate::cli::{
     args::Summary,
     exit::Exit,
     output::Sink,
-    sweep::{Sinks, bar},
+    sinks::{Sinks, bar},
     terminal::{self, Terminal},
 };
 use anyhow::Context;
