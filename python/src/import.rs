@@ -52,8 +52,11 @@ pub fn import_scene(
         Some(bytes) => import_bytes(name.as_deref().unwrap_or("file"), bytes, &options),
         None => import_files(&paths, &options),
     };
-    let Imported { scene, findings, .. } =
+    let Imported { scene, findings, mut unread, .. } =
         py.detach(read).map_err(|e| Trouble::from(e).raise(py))?;
+    if let Some(first) = unread.drain(..).next() {
+        return Err(Trouble::from(first).raise(py));
+    }
     Ok((Scene::of_scene(scene), findings.iter().map(crate::scene::told).collect()))
 }
 

@@ -28,7 +28,8 @@ pub fn run(args: &Import) -> anyhow::Result<Exit> {
     terminal::notes(&imported.findings);
     examined.findings.iter().for_each(|f| terminal::say(&format!("warning: {}", f.text)));
     examined.broken.iter().for_each(|text| terminal::say(&format!("warning: {text}")));
+    imported.unread.iter().for_each(|e| terminal::error(&e.clone().into()));
     sink.write(&json::text(&imported.scene.to_value()?))?;
-    // The scene is there to be looked at, but no question about it has an answer.
-    Ok(if examined.broken.is_empty() { Exit::Yes } else { Exit::No })
+    // The scene is there to be looked at, but no question about it has an answer, or it lacks files.
+    Ok(if examined.broken.is_empty() && imported.unread.is_empty() { Exit::Yes } else { Exit::No })
 }

@@ -5,6 +5,7 @@
 pub mod again;
 pub mod args;
 pub mod assess;
+mod called;
 mod camera;
 pub mod check;
 mod claim;
@@ -27,7 +28,7 @@ pub mod open;
 mod output;
 pub mod path;
 mod pictures;
-mod program;
+
 mod progress;
 mod question;
 mod report;

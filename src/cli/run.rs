@@ -56,7 +56,7 @@ pub fn run_as(
     arguments: impl IntoIterator<Item = OsString>,
     memory: Memory,
 ) -> Exit {
-    super::program::called_by(program);
+    super::called::set_by(program);
     run(arguments, memory)
 }
 

@@ -47,6 +47,15 @@ pub(super) fn read_error(
     path: JsonPath,
     error: &serde_json::Error,
 ) -> InputError {
+    // A rotation as three angles: where their list begins is what is wrong.
+    let turned = path.0.iter().rposition(|s| matches!(s, Step::Key(k) if k == "rotation_deg"));
+    if let Some(k) = turned.filter(|k| matches!(path.0.get(k + 1), Some(Step::Index(_)))) {
+        let path = JsonPath(path.0[..=k].to_vec());
+        let error = InputError::at(path, "a rotation is an axis and an angle, not a list")
+            .hint("write { \"axis\": [0, 0, 1], \"angle\": 45 } for 45° about z");
+        let position = source.locate(&error.path);
+        return InputError { file: Some(source.name.clone()), position, ..error };
+    }
     match error.classify() {
         Category::Data => data_error(source, path, error),
         // The reader says "syntax" also where good JSON has too many elements or keys for the type

@@ -3,7 +3,7 @@
 
 use super::{folder_of, watch};
 use crate::cli::{
-    args, exit::Exit, output::Sink, program, question::quoted, sinks::Sinks, terminal,
+    args, called, exit::Exit, output::Sink, question::quoted, sinks::Sinks, terminal,
     terminal::Terminal,
 };
 use anyhow::{Context, bail};
@@ -151,7 +151,7 @@ fn script(
     tasks: usize,
     missing: &[usize],
 ) -> anyhow::Result<Script> {
-    let program = program::path().context("the path of this program is not known")?;
+    let program = called::path().context("the path of this program is not known")?;
     let program = program.to_str().context("the path of this program is no text")?.to_string();
     let mut open = vec![false; tasks];
     missing.iter().for_each(|row| open[row % tasks] = true);

@@ -44,6 +44,21 @@ const FOOTING: f64 = 1e-2;
 /// not seen. Fewer: a block squeezed between two walls is reported.
 const FEW: usize = 4;
 
+/// What is pressed to its supports by at least this share of its weight, beside its weight, may hang
+/// on them by friction. Larger: grips on rough things are reported. Smaller: drawings on their side
+/// with a wind on them are not.
+const PRESSED: f64 = 0.1;
+
+/// Whether dead loads press the free blocks to supports that push them this way, or members hold
+/// them: they may stay where they are beside a wall.
+fn is_held(model: &Model, push: &Vector3<f64>) -> bool {
+    let Model { assembly, interfaces, .. } = model;
+    let load = |i: usize| -(assembly.dead[i].force - assembly.self_weight(i).force).dot(push);
+    let pressed: f64 = assembly.free().map(load).sum();
+    let weight: f64 = assembly.free().map(|i| assembly.weight(i)).sum();
+    pressed > PRESSED * weight * push.norm() || interfaces.members.iter().any(|m| !m.is_idle())
+}
+
 /// What looks like a mistake of axes.
 pub fn mistake(model: &Model) -> Option<Finding> {
     let assembly = &model.assembly;
@@ -61,6 +76,7 @@ pub fn mistake(model: &Model) -> Option<Finding> {
     } else if up.dot(&push).abs() < LEVEL
         && push.norm() > ONE_WAY
         && push.amax() > ALONG * push.norm()
+        && !is_held(model, &push)
     {
         format!(
             "The supports push the free blocks sideways only, towards {}, but gravity pulls towards {}: everything lies on its side. \

@@ -3,7 +3,9 @@
 use super::telling::FactorWords;
 use crate::text::page::Page;
 use analysis::{Outcome, coulomb::Found};
-use base::number::{bracketed, computed, computed_tilt, decimals, ends, moving, moving_tilt};
+use base::number::{
+    bracketed, computed, computed_tilt, decimals, ends, fixed, moving, moving_tilt,
+};
 use check::{
     proof::{answer::Answer, certificate::DryResult, result::ResultFile},
     verdict::{Verdict, claim::Claim},
@@ -254,5 +256,5 @@ pub(super) fn found(answer: &Answer) -> Option<(f64, f64, f64)> {
 pub(super) fn degrees((value, lower, upper): (f64, f64, f64)) -> String {
     let [v, l, u] = [value, lower, upper].map(|x| x.atan().to_degrees());
     // Nobody reads an angle to more than a millionth of a degree.
-    format!("{v:.*}", decimals(v, l, u).min(6))
+    fixed(v, decimals(v, l, u).min(6))
 }

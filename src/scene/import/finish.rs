@@ -7,6 +7,7 @@ use super::{
 use crate::{Ball, BlockSpec, Material, Scene, Shape};
 use base::{
     error::{Finding, FindingCode, InputError, JsonPath},
+    number::roundest,
     tolerance,
 };
 use std::collections::{BTreeMap, HashSet};
@@ -29,8 +30,8 @@ pub(super) fn scene(mut files: Vec<Raw>, options: &ImportOptions) -> Result<Impo
     }
     let (mut unwanted, mut with_forces) = (0, 0);
     let mut origins = Vec::new();
+    findings.extend(told(&mut files));
     for file in files {
-        findings.extend(file.findings);
         scene.materials.extend(file.materials);
         for mut block in file.blocks {
             place(&mut block.vertices, options)
@@ -80,7 +81,26 @@ pub(super) fn scene(mut files: Vec<Raw>, options: &ImportOptions) -> Result<Impo
              import with `--friction MU` or set joints.default.friction",
         ));
     }
-    Ok(Imported { scene, findings, origins })
+    Ok(Imported { scene, findings, origins, unread: Vec::new() })
+}
+
+/// What files say: of several each with the files that say it.
+fn told(files: &mut [Raw]) -> Vec<Finding> {
+    let several = files.len() > 1;
+    let mut all: Vec<(Finding, Vec<String>)> = Vec::new();
+    for file in files {
+        for finding in std::mem::take(&mut file.findings) {
+            match all.iter_mut().find(|(known, _)| *known == finding) {
+                Some((_, names)) => names.push(file.origin.clone()),
+                None => all.push((finding, vec![file.origin.clone()])),
+            }
+        }
+    }
+    let named = |(finding, names): (Finding, Vec<String>)| match several {
+        true => Finding { text: format!("{}: {}", list(&names), finding.text), ..finding },
+        false => finding,
+    };
+    all.into_iter().map(named).collect()
 }
 
 /// A sphere, or a clump about its first sphere's centre.
@@ -300,10 +320,10 @@ fn propose(scene: &Scene, lows: &[f64]) -> String {
         .flat_map(|b| corners(b).into_iter().map(|p| p[2]))
         .fold(f64::NEG_INFINITY, f64::max);
     let band = lowest + tolerance::LOWEST_BAND * (highest - lowest);
-    // Few digits to type, where they select the same blocks.
-    let short = format!("{band:.3}").parse().unwrap_or(band);
-    let selects = |z: f64| lows.iter().map(|&low| low < z).collect::<Vec<_>>();
-    let height = if selects(short) == selects(band) { short } else { band };
+    // As few digits to type as select the same blocks.
+    let above = lows.iter().copied().filter(|low| *low >= band).fold(highest, f64::min);
+    let below = lows.iter().copied().filter(|low| *low < band).fold(lowest, f64::max);
+    let height = roundest(band, (above - band).min(band - below) / 2.0);
     let candidates: Vec<String> = scene
         .blocks
         .iter()

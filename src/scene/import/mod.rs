@@ -55,6 +55,8 @@ pub struct Imported {
     pub findings: Vec<Finding>,
     /// Where each block of the scene comes from.
     pub origins: Vec<Origin>,
+    /// Files that could not be read, of several: they are not in the scene.
+    pub unread: Vec<InputError>,
 }
 
 /// Where a block comes from.
@@ -91,19 +93,27 @@ pub fn import_file(path: &Path, options: &ImportOptions) -> Result<Imported, Inp
 /// Where two files use the same id, the ids of every file get its name in front (`blocks-12`), and
 /// a finding says so.
 ///
+/// Of several files one that cannot be read is left out ([`Imported::unread`]).
+///
 /// # Errors
-/// As for [`import_file`].
+/// As for [`import_file`], where no file can be read.
 pub fn import_files<P: AsRef<Path>>(
     paths: &[P],
     options: &ImportOptions,
 ) -> Result<Imported, InputError> {
     options.check()?;
-    let mut files = paths
-        .iter()
-        .map(|path| load(path.as_ref(), false, options))
-        .collect::<Result<Vec<_>, _>>()?;
+    let (mut files, mut unread) = (Vec::new(), Vec::new());
+    for path in paths {
+        match load(path.as_ref(), false, options) {
+            Ok(file) => files.push(file),
+            Err(e) => unread.push(e),
+        }
+    }
+    if files.is_empty() && !unread.is_empty() {
+        return Err(unread.remove(0));
+    }
     add_support_files(&mut files, options)?;
-    finish::scene(files, options)
+    Ok(Imported { unread, ..finish::scene(files, options)? })
 }
 
 /// Imports a file that is already in memory; `name` stands for it in messages, its extension tells

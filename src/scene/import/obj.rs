@@ -9,7 +9,7 @@
 //! matters.
 
 use super::{
-    raw::{Raw, Solid, compact, parts, tally},
+    raw::{LEAST_FACES, Raw, Solid, compact, parts, tally},
     text::{self, shorten},
 };
 use base::error::{FindingCode, InputError, JsonPath};
@@ -171,7 +171,7 @@ fn split(
 ) -> Result<(), InputError> {
     let lines: Vec<usize> = faces.iter().map(|f| f.line).collect();
     let corners: Vec<Vec<usize>> = faces.into_iter().map(|f| f.corners).collect();
-    let part = parts(vertices.len(), &corners);
+    let part = parts(vertices, &corners);
     let count = part.iter().copied().max().map_or(0, |m| m + 1);
     let mut sorted: Vec<Vec<Vec<usize>>> = vec![Vec::new(); count];
     let mut places: Vec<Vec<usize>> = vec![Vec::new(); count];
@@ -179,14 +179,14 @@ fn split(
         places[p].push(line);
         sorted[p].push(face);
     }
-    if let Some(p) = sorted.iter().position(|faces| faces.len() < 4) {
+    if let Some(p) = sorted.iter().position(|faces| faces.len() < LEAST_FACES) {
         let (n, message) = (
             sorted[p].len(),
             "the file names no objects, and the faces do not hang together by their corners",
         );
         return Err(text::error(
             places[p][0],
-            format!("{message}: here is a part of {n} faces, a solid has at least 4"),
+            format!("{message}: here is a part of {n} faces, a solid has at least {LEAST_FACES}"),
         )
         .hint("export one object (`o NAME`) per block, or let faces share their corners (weld)"));
     }

@@ -5,7 +5,7 @@ use base::{
     error::{Finding, FindingCode},
     plane::Sets,
 };
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// The content of one file.
 #[derive(Debug, Default)]
@@ -90,8 +90,7 @@ impl Raw {
             .blocks
             .iter()
             .filter_map(|b| {
-                let parts =
-                    parts(b.vertices.len(), &b.faces).iter().copied().max().map_or(0, |m| m + 1);
+                let parts = parts(&b.vertices, &b.faces).iter().copied().max().map_or(0, |m| m + 1);
                 (parts > 1).then(|| format!("{:?} ({parts} parts)", b.id))
             })
             .collect();
@@ -121,13 +120,39 @@ pub(super) fn list(names: &[String]) -> String {
     text
 }
 
+/// A solid has at least so many faces.
+pub(super) const LEAST_FACES: usize = 4;
+
 /// Which connected part every face belongs to, numbered by first appearance: two faces are
-/// connected when they share a corner's index.
-pub(super) fn parts(vertices: usize, faces: &[Vec<usize>]) -> Vec<usize> {
-    let mut sets = Sets::new(vertices);
+/// connected when they share a corner's index, and where that leaves fewer than [`LEAST_FACES`] faces
+/// when they share its place.
+pub(super) fn parts(vertices: &[[f64; 3]], faces: &[Vec<usize>]) -> Vec<usize> {
+    let mut sets = Sets::new(vertices.len());
     for face in faces {
         for pair in face.windows(2) {
             sets.join(pair[0], pair[1]);
+        }
+    }
+    // Faces too few for a solid belong to what has corners where they have theirs: programs that
+    // write corners once for every face.
+    let mut count: HashMap<usize, usize> = HashMap::new();
+    for corner in faces.iter().filter_map(|f| f.first()) {
+        *count.entry(sets.find(*corner)).or_default() += 1;
+    }
+    let crumbs: HashSet<usize> =
+        count.into_iter().filter(|&(_, n)| n < LEAST_FACES).map(|(part, _)| part).collect();
+    if !crumbs.is_empty() {
+        let mut places: HashMap<[u64; 3], Vec<usize>> = HashMap::new();
+        for &corner in faces.iter().flatten() {
+            let place = vertices[corner].map(|c| (c + 0.0).to_bits());
+            places.entry(place).or_default().push(corner);
+        }
+        let mut broken = |c: &usize| crumbs.contains(&sets.find(*c));
+        places.retain(|_, corners| corners.iter().any(&mut broken));
+        for corners in places.values() {
+            for &c in corners {
+                sets.join(corners[0], c);
+            }
         }
     }
     let mut number = BTreeMap::new();

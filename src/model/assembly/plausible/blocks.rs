@@ -1,12 +1,18 @@
 //! Gravity, densities and sizes.
 
-use super::{bounds, density, first, free, is_on_earth, median, short};
-use crate::assembly::Assembly;
+use super::{
+    bounds, bounds::DensityUnit, density, first, free, is_on_earth, median, short, told::others,
+};
+use crate::assembly::{Assembly, Block};
+use scene::Scene;
+use std::collections::HashSet;
 
 /// What looks like a mistake in them.
-pub(super) fn mistakes(assembly: &Assembly) -> Vec<String> {
-    [gravity(assembly), densities(assembly), large(assembly), small(assembly), odd(assembly)]
+pub(super) fn mistakes(scene: &Scene, assembly: &Assembly) -> Vec<String> {
+    let sizes = [large(assembly), small(assembly), odd(assembly)];
+    [gravity(assembly), densities(scene, assembly), turned(scene)]
         .into_iter()
+        .chain(sizes)
         .flatten()
         .collect()
 }
@@ -23,33 +29,85 @@ fn gravity(assembly: &Assembly) -> Option<String> {
         .then(|| format!("Gravity is {g:.3e} m/s²; on Earth it is 9.81. Are the units m and s?"))
 }
 
-fn densities(assembly: &Assembly) -> Option<String> {
-    let unit = |d: f64| bounds::DENSITY_UNITS.iter().find(|u| u.window.contains(&d));
+/// Densities and masses. A mass that is heavy for the size of its block may be one of something else
+/// than stone; in tonnes it is far too light.
+fn densities(scene: &Scene, assembly: &Assembly) -> Option<String> {
+    if !is_on_earth(assembly) {
+        return None;
+    }
+    let weighed: HashSet<&str> =
+        scene.blocks.iter().filter(|b| b.mass.is_some()).map(|b| b.id.as_str()).collect();
+    let is_weighed = |b: &Block| weighed.contains(b.id.as_str());
+    let unit = |b: &Block| {
+        let mut units = bounds::DENSITY_UNITS.iter();
+        let known = |u: &&DensityUnit| u.window.contains(&density(b));
+        units.find(|u| known(u) && (!is_weighed(b) || u.kilograms == bounds::TONNE))
+    };
     // What was drawn by lot, or scaled for a trial, has densities of all kinds; a mistake has those
     // of stone in one other unit.
-    if is_on_earth(assembly)
-        && let Some((block, value, others)) = first(free(assembly), density, |d| unit(d).is_some())
-        && let Some(unit) = unit(value)
+    if let Some((block, unit)) = free(assembly).find_map(|b| Some((b, unit(b)?)))
         && free(assembly)
             .map(density)
             .all(|d| unit.window.contains(&d) || bounds::SOLID.contains(&d))
     {
-        return Some(format!(
-            "Block {:?}{others} has a density of {} kg/m³, where stone has 1200 to 3300. It looks like {}: densities are in kg/m³, write {:.0}",
-            block.id,
-            short(value),
-            unit.name,
-            value * unit.kilograms
-        ));
+        let (value, all) = (density(block), free(assembly).filter(|b| unit_of(b, unit)));
+        let others = others(all.count() - 1);
+        return Some(match is_weighed(block) {
+            true => format!(
+                "Block {:?}{others} has a mass of {} kg, {} kg/m³ of its volume, where stone has 1200 to 3300. It looks like t: masses are in kg, write {}",
+                block.id,
+                short(block.mass),
+                short(value),
+                short(block.mass * unit.kilograms)
+            ),
+            false => format!(
+                "Block {:?}{others} has a density of {} kg/m³, where stone has 1200 to 3300. It looks like {}: densities are in kg/m³, write {:.0}",
+                block.id,
+                short(value),
+                unit.name,
+                value * unit.kilograms
+            ),
+        });
     }
     // In a problem with units of its own, weights that are not quite 1 and masses over nine decades
     // are what somebody chose.
-    let odd = |d: f64| !bounds::DENSITY.contains(&d) && is_on_earth(assembly);
-    let (block, value, others) = first(free(assembly), density, odd)?;
+    let given = || free(assembly).filter(|b| !is_weighed(b));
+    let (block, value, others) = first(given(), density, |d| !bounds::DENSITY.contains(&d))?;
     Some(format!(
         "Block {:?}{others} has a density of {value:.3e} kg/m³; stone has about 2400. Is it in kg/m³ (not t/m³ or g/cm³), and are lengths in m?",
         block.id
     ))
+}
+
+/// Whether a block has a density of stone in this unit.
+fn unit_of(block: &Block, unit: &DensityUnit) -> bool {
+    unit.window.contains(&density(block))
+}
+
+/// Rotations in radians: all of them are, or none.
+fn turned(scene: &Scene) -> Option<String> {
+    let turns = || {
+        let angles = scene.blocks.iter().filter_map(|b| Some((b, b.rotation_deg.as_ref()?.angle)));
+        angles.filter(|a| a.1 != 0.0)
+    };
+    let round =
+        |angle: f64| (angle.to_degrees() / bounds::ROUND_DEGREES).round() * bounds::ROUND_DEGREES;
+    let is_radians = |angle: f64| {
+        angle.abs() <= std::f64::consts::TAU
+            && round(angle) != 0.0
+            && (angle.to_degrees() - round(angle)).abs() <= bounds::ROUND_WITHIN
+    };
+    let (block, angle) = turns().next()?;
+    let others = others(turns().count() - 1);
+    turns().all(|t| is_radians(t.1)).then(|| {
+        format!(
+            "Block {:?}{others} is turned by {}°, which is {}° in radians: \"rotation_deg\" takes degrees, write {}",
+            block.id,
+            short(angle),
+            round(angle),
+            round(angle)
+        )
+    })
 }
 
 /// Everything in millimetres, centimetres or inches.

@@ -45,6 +45,9 @@ pub struct DensityUnit {
     pub kilograms: f64,
 }
 
+/// kg.
+pub const TONNE: f64 = 1e3;
+
 /// 9.81 m/s², for weights.
 const G: f64 = 9.81;
 
@@ -52,7 +55,7 @@ const G: f64 = 9.81;
 /// none of the windows; 99 kg/m³ and less (cork, foam) are not taken for pounds.
 pub const DENSITY_UNITS: [DensityUnit; 8] = [
     DensityUnit { name: "kN/m³", window: 11.0..=32.0, kilograms: 1e3 / G },
-    DensityUnit { name: "t/m³ (g/cm³)", window: 1.2..=3.4, kilograms: 1e3 },
+    DensityUnit { name: "t/m³ (g/cm³)", window: 1.2..=3.4, kilograms: TONNE },
     DensityUnit { name: "N/m³", window: 12e3..=32e3, kilograms: 1.0 / G },
     DensityUnit { name: "lb/ft³", window: 120.0..=195.0, kilograms: 16.018_463 },
     DensityUnit { name: "g/m³", window: 1.2e6..=3.4e6, kilograms: 1e-3 },
@@ -92,16 +95,25 @@ pub const LARGE: f64 = 200.0;
 /// The same where there are [`MANY`] blocks or more: nobody models a slope by so many blocks as
 /// large as towers, but hewn stones of 100 mm in millimetres are. Larger: small bricks in
 /// millimetres pass. Smaller: jointed slopes are reported.
-pub const LARGE_OF_MANY: f64 = 60.0;
+pub const LARGE_OF_MANY: f64 = 50.0;
 
 /// The median free block of [`MANY`] or more measures this, m, where lengths are in centimetres or
 /// inches: stones of 0.12 to 0.5 m in the one, of 0.3 to 1.3 m in the other. Lower: megaliths and
-/// rockfill are reported. Higher: a published vault in units of its own is.
+/// rockfill are reported. Higher: what may as well be in millimetres is told to be in centimetres.
 pub const CENTIMETRES: RangeInclusive<f64> = 12.0..=50.0;
 
 /// What is too large to be in metres may be in centimetres up to this, m. Larger: stones of more
 /// than 3 m. Smaller: large stones in centimetres are taken for small bricks in millimetres.
 pub const LARGE_IN_CENTIMETRES: f64 = 300.0;
+
+/// Rotations of at most one turn in radians, each of which is a multiple of so many degrees, to
+/// within [`ROUND_WITHIN`]. Larger: 25° in radians passes. Smaller: slight rotations that were meant
+/// are reported.
+pub const ROUND_DEGREES: f64 = 5.0;
+
+/// In degrees: three digits of radians. Larger: slight rotations that were meant are reported.
+/// Smaller: 0.349 for 20° passes.
+pub const ROUND_WITHIN: f64 = 0.05;
 
 /// So many free blocks are many. Fewer: a few huge rocks are reported. More: small arches pass.
 pub const MANY: usize = 8;

@@ -26,7 +26,8 @@ use told::{Told, Weights, density, first, free, is_on_earth, median, short};
 
 /// What looks like a mistake in a resolved scene.
 pub(super) fn mistakes(scene: &Scene, assembly: &Assembly) -> Vec<Finding> {
-    let units = blocks::mistakes(assembly).into_iter().chain(joints::mistakes(scene, assembly));
+    let units =
+        blocks::mistakes(scene, assembly).into_iter().chain(joints::mistakes(scene, assembly));
     let units = units.chain(site::mistakes(scene));
     let units = units.map(|text| Finding::new(FindingCode::Units, text));
     units

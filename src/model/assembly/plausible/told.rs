@@ -81,7 +81,12 @@ pub(super) fn first<'a>(
     let mut hits = blocks.map(|b| (b, value(b))).filter(|&(_, v)| odd(v));
     let (block, value) = hits.next()?;
     let count = hits.count();
-    Some((block, value, if count > 0 { format!(" (and {count} more)") } else { String::new() }))
+    Some((block, value, others(count)))
+}
+
+/// How many there are beside the one that is named.
+pub(super) fn others(count: usize) -> String {
+    if count > 0 { format!(" (and {count} more)") } else { String::new() }
 }
 
 /// A number in few digits, as one writes it.

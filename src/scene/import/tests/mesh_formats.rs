@@ -55,6 +55,37 @@ fn obj_without_names_is_split_where_it_does_not_hang_together() {
     finding(&imported, FindingCode::Converted, &["connected parts", "2 in all"]);
 }
 
+/// Programs that write corners once for every face: what is left of a body belongs to it, and a
+/// body that is whole stays one although another has a corner at the same place.
+#[test]
+fn obj_faces_with_corners_of_their_own_are_a_body() {
+    let corner_by_face = |at: [f64; 3], first: usize| {
+        let text = obj_box(at, |i| i.to_string());
+        let points: Vec<&str> = text.lines().filter(|l| l.starts_with('v')).collect();
+        let faces = text.lines().filter(|l| l.starts_with('f'));
+        let mut own = String::new();
+        let mut next = first;
+        for face in faces {
+            let corners =
+                face.split_whitespace().skip(1).map(|c| points[c.parse::<usize>().unwrap() - 1]);
+            let corners: Vec<&str> = corners.collect();
+            own += &format!("{}\n", corners.join("\n"));
+            let numbers: Vec<String> =
+                (next..next + corners.len()).map(|i| i.to_string()).collect();
+            own += &format!("f {}\n", numbers.join(" "));
+            next += corners.len();
+        }
+        own
+    };
+    let imported = good("cube.obj", corner_by_face([0.0; 3], 1));
+    assert_eq!(volume(&imported.scene.blocks[0]), 6.0);
+    let whole = obj_box([0.0; 3], |i| i.to_string());
+    let above = |z: f64| corner_by_face([0.0, 0.0, z], 9);
+    assert_eq!(ids(&good("pile.obj", whole.clone() + &above(5.0))), ["pile-0", "pile-1"]);
+    let beside = whole + &obj_box([0.0, 0.0, 3.0], |i| (i + 8).to_string());
+    assert_eq!(ids(&good("pile.obj", beside)), ["pile-0", "pile-1"]);
+}
+
 #[test]
 fn obj_faces_may_come_before_their_corners_and_lines_may_be_continued() {
     let text = obj_box([0.0; 3], |i| i.to_string());

@@ -6,7 +6,7 @@ use std::{io, path::PathBuf, sync::OnceLock};
 static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
 
 /// It is called by this path: that of a script.
-pub fn called_by(path: PathBuf) {
+pub fn set_by(path: PathBuf) {
     let _ = PROGRAM.set(path);
 }
 
