@@ -9,7 +9,7 @@ use super::{
 };
 use std::ops::ControlFlow;
 use voussoir::{
-    analysis::{Answer, AssessOptions, Question, SimulateOptions},
+    analysis::{Answer, AssessOptions, SimulateOptions},
     proof::{ResultFile, saved},
     verdict::Verdict,
 };
@@ -17,7 +17,7 @@ use voussoir::{
 pub fn run(args: &Assess, terminal: &Terminal) -> anyhow::Result<Exit> {
     let mut session =
         Session::open(&args.common)?.drawn(&args.pictures, args.tables.csv.as_deref())?;
-    let question = Question::Assess(AssessOptions { law: session.law() });
+    let question = AssessOptions { law: session.law() }.into();
     session.worst(&args.worst, &question)?;
     let answer = session.ask(&question)?;
     let mut file = session.result(&question, &answer)?;
@@ -26,7 +26,7 @@ pub fn run(args: &Assess, terminal: &Terminal) -> anyhow::Result<Exit> {
     if let (true, Answer::Assess(assessment)) = (args.simulate || (args.thorough && doubt), &answer)
     {
         let options = SimulateOptions::default();
-        let asked = Question::Simulate(options.clone());
+        let asked = options.clone().into();
         let mut camera = Camera::new(&session, args.threads, session.report().is_some());
         if let Answer::Simulate(outcome) =
             camera.ask(&session, &asked, &mut |_| ControlFlow::Continue(()))?

@@ -8,7 +8,7 @@ use super::{
 };
 use anyhow::bail;
 use voussoir::{
-    analysis::{Answer, Critical, CriticalOptions, Question},
+    analysis::{Answer, Critical, CriticalOptions},
     number::fixed,
     proof::{critical::CriticalResult, saved},
     report::view::View,
@@ -37,12 +37,9 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
         ),
     };
     let session = Session::open(&args.common)?;
-    let question = Question::Critical(CriticalOptions {
-        law: session.law(),
-        vary: args.vary.clone(),
-        between: [from, to],
-        scan,
-    });
+    let question =
+        CriticalOptions { law: session.law(), vary: args.vary.clone(), between: [from, to], scan }
+            .into();
     let answer = session.ask(&question)?;
     let seen = match (&answer, session.report()) {
         (Answer::Critical(flips), Some(_)) => picture(&session, flips)?,

@@ -13,7 +13,7 @@ use super::{
 use anyhow::bail;
 use std::{ops::ControlFlow, path::Path};
 use voussoir::{
-    analysis::{Answer, Question, RockOptions, RockPoint, Rocking, ShakeOptions},
+    analysis::{Answer, RockOptions, RockPoint, Rocking, ShakeOptions},
     dynamics::Frame,
     ground::{Formula, Given, Motion, Record, Recorded, Series},
     proof::shaken::ShakenWord,
@@ -69,7 +69,7 @@ pub struct Rock<'a> {
 /// Runs the mechanism of a scene in time.
 pub fn rock(session: &Session, terminal: &Terminal, ask: Rock) -> anyhow::Result<Exit> {
     let Shaking { given, record, motion } = shaking(&ask.args.ground)?;
-    let question = Question::Rock(RockOptions {
+    let question = RockOptions {
         toward: ask.toward.unwrap_or([1.0, 0.0, 0.0]),
         ground: given,
         control: ask.control.map(|(block, point)| RockPoint { block, point: Some(point) }),
@@ -78,7 +78,8 @@ pub fn rock(session: &Session, terminal: &Terminal, ask: Rock) -> anyhow::Result
         seconds: ask.args.seconds,
         scan: ask.args.scan.map(|(from, to)| [from, to]),
         fate_only: false,
-    });
+    }
+    .into();
     let answer = session.ask(&question)?;
     let Answer::Rock(rocking) = &answer else { bail!("the answer is not one to its question") };
     let Rocking { built, history, .. } = &**rocking;
@@ -101,13 +102,14 @@ pub fn simulate(args: &Simulate, session: &Session, terminal: &Terminal) -> anyh
     }
     let told = Told::open(&args.csv, &args.chart)?;
     let Shaking { given, record, motion } = shaking(&args.ground)?;
-    let question = Question::Shake(ShakeOptions {
+    let question = ShakeOptions {
         toward: args.toward.unwrap_or([1.0, 0.0, 0.0]),
         ground: given,
         fast: args.fast,
         seconds: args.seconds,
         to_the_end: args.to_the_end,
-    });
+    }
+    .into();
     let wanted = told.is_wanted() || session.report().is_some();
     let frames = args.frames.map_or(if wanted { FRAMES } else { 0 }, |n| n as usize);
     let mut camera = Camera::new(session, args.threads, session.is_filmed()).taking(frames, true);

@@ -10,7 +10,7 @@ use super::{
 };
 use anyhow::bail;
 use voussoir::{
-    analysis::{ControlPoint, KinematicOptions, Question},
+    analysis::{ControlPoint, KinematicOptions},
     proof::kinematic::Numbers,
 };
 
@@ -23,7 +23,7 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
     if let Some(option) = args.rocking.idle() {
         bail!("{option} goes with --ground or --pulse");
     }
-    let question = Question::Kinematic(KinematicOptions {
+    let question = KinematicOptions {
         law: session.law(),
         require: args.require,
         toward: args.toward.clone(),
@@ -33,7 +33,8 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
         at: args.at.clone(),
         linear: args.linear,
         skip_dead: args.skip_dead,
-    });
+    }
+    .into();
     let answer = session.ask(&question)?;
     let file = session.answer(terminal, session.result(&question, &answer)?)?;
     told.write(&file)?;

@@ -8,7 +8,7 @@ use super::{
     terminal::Terminal,
 };
 use anyhow::bail;
-use voussoir::analysis::{LimitOptions, Question};
+use voussoir::analysis::LimitOptions;
 
 pub fn run(args: &Limit, terminal: &Terminal) -> anyhow::Result<Exit> {
     if args.moving {
@@ -19,11 +19,9 @@ pub fn run(args: &Limit, terminal: &Terminal) -> anyhow::Result<Exit> {
     }
     let mut session =
         Session::open(&args.common)?.drawn(&args.pictures, args.tables.csv.as_deref())?;
-    let question = Question::Limit(LimitOptions {
-        law: session.law(),
-        require: args.require,
-        skip_dead: args.skip_dead,
-    });
+    let question =
+        LimitOptions { law: session.law(), require: args.require, skip_dead: args.skip_dead }
+            .into();
     session.worst(&args.worst, &question)?;
     let file = session.result(&question, &session.ask(&question)?)?;
     let file = session.answer(terminal, file)?;

@@ -8,10 +8,7 @@ use super::{
     told::Told,
 };
 use anyhow::bail;
-use voussoir::{
-    analysis::{MovingOptions, Question},
-    report::view::positions,
-};
+use voussoir::{analysis::MovingOptions, report::view::positions};
 
 pub fn run(args: &Limit, terminal: &Terminal) -> anyhow::Result<Exit> {
     if !args.worst.is_empty() {
@@ -21,12 +18,13 @@ pub fn run(args: &Limit, terminal: &Terminal) -> anyhow::Result<Exit> {
     }
     let told = Told::open(&args.positions, &args.chart)?;
     let session = Session::open(&args.common)?.drawn(&args.pictures, args.tables.csv.as_deref())?;
-    let question = Question::Moving(MovingOptions {
+    let question = MovingOptions {
         law: session.law(),
         require: args.require,
         skip_dead: args.skip_dead,
         every_value: args.every_value,
-    });
+    }
+    .into();
     let answer = session.ask(&question)?;
     let file = session.result(&question, &answer)?;
     let film = if session.is_filmed() { positions(&session.model, &file) } else { Vec::new() };

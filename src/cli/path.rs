@@ -23,23 +23,25 @@ pub fn settle(args: &Settle, terminal: &Terminal) -> anyhow::Result<Exit> {
         return cracks::run(&session, file, args.common.json, args.common.quiet);
     }
     let session = Session::open(&args.common)?.filmed(&args.curve.pictures)?;
-    let question = Question::Settle(SettleOptions {
+    let question = SettleOptions {
         moves: args.moves.clone(),
         at: args.at.clone(),
         from: begin(&session, &args.curve)?,
-    });
+    }
+    .into();
     run(&session, &question, &args.curve, terminal)
 }
 
 pub fn push(args: &Push, terminal: &Terminal) -> anyhow::Result<Exit> {
     let (block, point) = args.control.clone();
     let session = Session::open(&args.common)?.filmed(&args.curve.pictures)?;
-    let question = Question::Push(PushOptions {
+    let question = PushOptions {
         control: ControlPoint { block, point },
         toward: args.toward,
         at: args.at.clone(),
         from: begin(&session, &args.curve)?,
-    });
+    }
+    .into();
     run(&session, &question, &args.curve, terminal)
 }
 

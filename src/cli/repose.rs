@@ -12,7 +12,7 @@ use super::{
 use anyhow::{Context, bail};
 use std::time::Instant;
 use voussoir::{
-    analysis::{Answer, AssessOptions, Question, ReposeOptions, ask, doubt, fabric},
+    analysis::{Answer, AssessOptions, ReposeOptions, ask, doubt, fabric},
     error::InputError,
     interface::{Model, prepare},
     proof::{packing::PackingDirection, saved},
@@ -61,13 +61,14 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
     let csv = args.csv.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
     let grains = args.grains.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
     let session = Session::open(&args.common)?.drawn(&args.pictures, None)?;
-    let question = Question::Repose(ReposeOptions {
+    let question = ReposeOptions {
         law: session.law(),
         require: None,
         toward: args.toward.clone(),
         all: args.toward.is_empty().then_some(args.all),
         moving_mass: args.moving_mass,
-    });
+    }
+    .into();
     // As they lie, whatever the answer will be.
     if let Some(grains) = &grains {
         let format = GrainFormat::of(args.grains.as_deref());
@@ -132,7 +133,7 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
 /// Forces of the packing when level: those that the weights produce where dry friction was
 /// computed, else some that balance.
 fn level(session: &Session, model: &Model) -> anyhow::Result<Forces> {
-    let question = Question::Assess(AssessOptions { law: session.law() });
+    let question = AssessOptions { law: session.law() }.into();
     match ask(&question, &session.scene, model, &session.control())
         .map_err(|e| session.refuse(e))?
     {

@@ -12,7 +12,7 @@ use super::{
 use anyhow::{Context, bail};
 use std::{fs::File, ops::ControlFlow};
 use voussoir::{
-    analysis::{Answer, AssessOptions, Question, SimulateOptions, doubt},
+    analysis::{Answer, AssessOptions, SimulateOptions, doubt},
     dynamics::{Fate, Frame},
     proof::saved,
     report::trajectory::TrajectoryWriter,
@@ -73,16 +73,15 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
         to_the_end: args.to_the_end,
         load_factor: None,
     };
-    let answer = camera.ask(&session, &Question::Simulate(options.clone()), &mut keep)?;
+    let answer = camera.ask(&session, &options.clone().into(), &mut keep)?;
     let film = camera.frames();
     if let (Some(e), Some(path)) = (failure, &args.csv) {
         return Err(e).with_context(|| written(path));
     }
     let Answer::Simulate(outcome) = &answer else { bail!("there is no simulation") };
     let law = session.law();
-    let verdict = (!args.skip_verdict)
-        .then(|| session.ask(&Question::Assess(AssessOptions { law })))
-        .transpose()?;
+    let verdict =
+        (!args.skip_verdict).then(|| session.ask(&AssessOptions { law }.into())).transpose()?;
     let assessment = match &verdict {
         Some(Answer::Assess(a)) => Some(a),
         _ => None,

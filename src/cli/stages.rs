@@ -8,7 +8,7 @@ use super::{
     told::Told,
 };
 use voussoir::{
-    analysis::{Answer, Question, StagesOptions},
+    analysis::{Answer, StagesOptions},
     proof::{ResultFile, saved, stages::StagesAnswer},
     report::view::View,
     verdict::Verdict,
@@ -17,7 +17,7 @@ use voussoir::{
 pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
     let session = Session::open(&args.common)?.drawn(&args.pictures, None)?;
     let told = Told::open(&args.csv, &args.chart)?;
-    let question = Question::Stages(StagesOptions {
+    let question = StagesOptions {
         law: session.law(),
         any_order: args.any_order,
         order: args.order.clone(),
@@ -27,7 +27,8 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
         all: args.all,
         skip_margin: args.skip_margin,
         skip_held: args.skip_held,
-    });
+    }
+    .into();
     let answer = session.ask(&question)?;
     let file = session.result(&question, &answer)?;
     let seen = match worst(&session, &answer, &file) {

@@ -9,7 +9,7 @@ use super::{
 };
 use anyhow::bail;
 use voussoir::{
-    analysis::{ControlPoint, Question, StateOptions},
+    analysis::{ControlPoint, StateOptions},
     elastic::PathEnd,
     proof::state::StateAnswer,
     verdict::Verdict,
@@ -24,13 +24,14 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
     let session = Session::open(&args.common)?.drawn(&args.pictures, None)?;
     let told = Told::open(&args.csv, &args.chart)?;
     let control = args.control.clone().map(|(block, point)| ControlPoint { block, point });
-    let question = Question::State(StateOptions {
+    let question = StateOptions {
         quadrature: args.quadrature.into(),
         control,
         at: args.at.clone(),
         dead_only: args.dead_only,
         require: args.require,
-    });
+    }
+    .into();
     let answer = session.ask(&question)?;
     let file = session.result(&question, &answer)?;
     let file = session.answer(terminal, file)?;

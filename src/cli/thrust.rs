@@ -6,19 +6,20 @@ use super::{
     question::{Session, unless_weaker, verdict},
     terminal::Terminal,
 };
-use voussoir::analysis::{Outcome, Question, ThrustOptions};
+use voussoir::analysis::{Outcome, ThrustOptions};
 
 pub fn run(args: &Thrust, terminal: &Terminal) -> anyhow::Result<Exit> {
     let session = Session::open(&args.common)?.drawn(&args.pictures, args.tables.csv.as_deref())?;
     let (law, support, direction) = (session.law(), args.support.clone(), args.direction);
-    let question = Question::Thrust(ThrustOptions {
+    let question = ThrustOptions {
         law,
         support,
         direction,
         member: args.member.clone(),
         greatest: false,
         range: true,
-    });
+    }
+    .into();
     let answer = session.ask(&question)?;
     let file = session.answer(terminal, session.result(&question, &answer)?)?;
     let Some(found) = file.answer.thrust() else { return Ok(verdict(file.answer.verdict())) };

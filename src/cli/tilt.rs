@@ -6,17 +6,18 @@ use super::{
     question::{Session, requirement, unless_weaker},
     terminal::Terminal,
 };
-use voussoir::analysis::{Question, TiltOptions};
+use voussoir::analysis::TiltOptions;
 
 pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
     let session = Session::open(&args.common)?.drawn(&args.pictures, args.tables.csv.as_deref())?;
-    let question = Question::Tilt(TiltOptions {
+    let question = TiltOptions {
         law: session.law(),
         require: args.require,
         toward: args.toward.clone(),
         all: args.toward.is_empty().then_some(args.all),
         skip_dead: args.skip_dead,
-    });
+    }
+    .into();
     let file = session.result(&question, &session.ask(&question)?)?;
     let file = session.answer(terminal, file)?;
     let exit = requirement(&file, question.require(), |lambda| lambda.atan().to_degrees());
