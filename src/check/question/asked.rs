@@ -46,3 +46,25 @@ pub trait Asked: Sized {
         self
     }
 }
+
+/// What is a field of the options: `law`, `require`.
+macro_rules! chosen {
+    (law) => {
+        fn law(&self) -> Law {
+            self.law
+        }
+
+        fn law_mut(&mut self) -> Option<&mut Law> {
+            Some(&mut self.law)
+        }
+    };
+    (require) => {
+        fn require(&self) -> Option<f64> {
+            self.require
+        }
+    };
+    ($($field:ident),+) => {
+        $(chosen!($field);)+
+    };
+}
+pub(super) use chosen;

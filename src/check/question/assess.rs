@@ -1,6 +1,6 @@
 //! What is asked of a scene under its dead load.
 
-use super::asked::Asked;
+use super::asked::{Asked, chosen};
 use crate::terms::Law;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -14,11 +14,5 @@ pub struct AssessOptions {
 }
 
 impl Asked for AssessOptions {
-    fn law(&self) -> Law {
-        self.law
-    }
-
-    fn law_mut(&mut self) -> Option<&mut Law> {
-        Some(&mut self.law)
-    }
+    chosen!(law);
 }

@@ -1,6 +1,6 @@
 //! What is asked of a number of the scene, and which values of its range are scanned.
 
-use super::asked::Asked;
+use super::asked::{Asked, chosen};
 use crate::terms::Law;
 use base::{
     error::{InputError, JsonPath},
@@ -45,13 +45,7 @@ impl Asked for CriticalOptions {
         Ok(())
     }
 
-    fn law(&self) -> Law {
-        self.law
-    }
-
-    fn law_mut(&mut self) -> Option<&mut Law> {
-        Some(&mut self.law)
-    }
+    chosen!(law);
 
     fn quantity(&self) -> Option<&'static str> {
         Some("value at which the verdict flips")

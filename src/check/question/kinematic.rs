@@ -1,7 +1,7 @@
 //! What is asked of a mechanism under an earthquake.
 
 use super::{
-    asked::{Asked, Idle},
+    asked::{Asked, Idle, chosen},
     control::ControlPoint,
     directions::check_directions,
 };
@@ -59,17 +59,7 @@ impl Asked for KinematicOptions {
         check_directions(path, &self.toward, self.all)
     }
 
-    fn law(&self) -> Law {
-        self.law
-    }
-
-    fn law_mut(&mut self) -> Option<&mut Law> {
-        Some(&mut self.law)
-    }
-
-    fn require(&self) -> Option<f64> {
-        self.require
-    }
+    chosen!(law, require);
 
     fn quantity(&self) -> Option<&'static str> {
         Some("α0")

@@ -1,6 +1,6 @@
 //! What is asked of a live load.
 
-use super::asked::{Asked, Idle};
+use super::asked::{Asked, Idle, chosen};
 use crate::terms::Law;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -21,17 +21,7 @@ pub struct LimitOptions {
 }
 
 impl Asked for LimitOptions {
-    fn law(&self) -> Law {
-        self.law
-    }
-
-    fn law_mut(&mut self) -> Option<&mut Law> {
-        Some(&mut self.law)
-    }
-
-    fn require(&self) -> Option<f64> {
-        self.require
-    }
+    chosen!(law, require);
 
     fn quantity(&self) -> Option<&'static str> {
         Some("load factor")

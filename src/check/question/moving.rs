@@ -1,6 +1,6 @@
 //! What is asked of a train.
 
-use super::asked::{Asked, Idle};
+use super::asked::{Asked, Idle, chosen};
 use crate::terms::Law;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -25,17 +25,7 @@ pub struct MovingOptions {
 }
 
 impl Asked for MovingOptions {
-    fn law(&self) -> Law {
-        self.law
-    }
-
-    fn law_mut(&mut self) -> Option<&mut Law> {
-        Some(&mut self.law)
-    }
-
-    fn require(&self) -> Option<f64> {
-        self.require
-    }
+    chosen!(law, require);
 
     fn quantity(&self) -> Option<&'static str> {
         Some("least load factor of the train")

@@ -1,6 +1,9 @@
 //! What is asked of a packing of grains.
 
-use super::{asked::Asked, directions::check_directions};
+use super::{
+    asked::{Asked, chosen},
+    directions::check_directions,
+};
 use crate::terms::Law;
 use base::error::{InputError, JsonPath};
 use schemars::JsonSchema;
@@ -34,17 +37,7 @@ impl Asked for ReposeOptions {
         check_directions(path, &self.toward, self.all)
     }
 
-    fn law(&self) -> Law {
-        self.law
-    }
-
-    fn law_mut(&mut self) -> Option<&mut Law> {
-        Some(&mut self.law)
-    }
-
-    fn require(&self) -> Option<f64> {
-        self.require
-    }
+    chosen!(law, require);
 
     fn quantity(&self) -> Option<&'static str> {
         Some("angle of maximum stability in degrees")

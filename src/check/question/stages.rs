@@ -1,7 +1,7 @@
 //! Options of the question.
 
 use super::{
-    asked::{Asked, Idle},
+    asked::{Asked, Idle, chosen},
     directions::check_directions,
 };
 use crate::terms::Law;
@@ -72,13 +72,7 @@ impl Asked for StagesOptions {
         }
     }
 
-    fn law(&self) -> Law {
-        self.law
-    }
-
-    fn law_mut(&mut self) -> Option<&mut Law> {
-        Some(&mut self.law)
-    }
+    chosen!(law);
 
     fn quantity(&self) -> Option<&'static str> {
         Some(match self.has_order() {

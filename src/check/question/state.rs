@@ -1,7 +1,7 @@
 //! What is asked of a scene whose joints have a stiffness.
 
 use super::{
-    asked::{Asked, Idle},
+    asked::{Asked, Idle, chosen},
     control::ControlPoint,
 };
 use crate::{elastic::Quadrature, terms::Law};
@@ -49,9 +49,7 @@ impl Asked for StateOptions {
         Law::Coulomb
     }
 
-    fn require(&self) -> Option<f64> {
-        self.require
-    }
+    chosen!(require);
 
     fn quantity(&self) -> Option<&'static str> {
         Some(match self.dead_only {

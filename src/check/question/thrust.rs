@@ -1,6 +1,6 @@
 //! What is asked of a thrust, or of a force in a member.
 
-use super::asked::{Asked, Idle};
+use super::asked::{Asked, Idle, chosen};
 use crate::terms::Law;
 use base::error::{InputError, JsonPath};
 use schemars::JsonSchema;
@@ -39,13 +39,7 @@ impl Asked for ThrustOptions {
         }
     }
 
-    fn law(&self) -> Law {
-        self.law
-    }
-
-    fn law_mut(&mut self) -> Option<&mut Law> {
-        Some(&mut self.law)
-    }
+    chosen!(law);
 
     fn quantity(&self) -> Option<&'static str> {
         Some(match (self.member.is_some(), self.greatest) {

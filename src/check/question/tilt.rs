@@ -1,7 +1,7 @@
 //! What is asked of tilts.
 
 use super::{
-    asked::{Asked, Idle},
+    asked::{Asked, Idle, chosen},
     directions::check_directions,
 };
 use crate::terms::Law;
@@ -35,17 +35,7 @@ impl Asked for TiltOptions {
         check_directions(path, &self.toward, self.all)
     }
 
-    fn law(&self) -> Law {
-        self.law
-    }
-
-    fn law_mut(&mut self) -> Option<&mut Law> {
-        Some(&mut self.law)
-    }
-
-    fn require(&self) -> Option<f64> {
-        self.require
-    }
+    chosen!(law, require);
 
     fn quantity(&self) -> Option<&'static str> {
         Some("tilt in degrees")

@@ -1,6 +1,6 @@
 //! What is asked of a scene without single blocks.
 
-use super::asked::Asked;
+use super::asked::{Asked, chosen};
 use crate::terms::Law;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -14,13 +14,7 @@ pub struct WithoutOptions {
 }
 
 impl Asked for WithoutOptions {
-    fn law(&self) -> Law {
-        self.law
-    }
-
-    fn law_mut(&mut self) -> Option<&mut Law> {
-        Some(&mut self.law)
-    }
+    chosen!(law);
 
     fn quantity(&self) -> Option<&'static str> {
         Some("blocks that may be taken out")

@@ -8,7 +8,7 @@
 //! straight down.
 
 use super::{Interface, Model};
-use crate::assembly::{Block, Polyhedron, Solid};
+use crate::assembly::{Action, Block, Member, Polyhedron, Solid};
 use base::error::{Finding, FindingCode};
 use nalgebra::Vector3;
 
@@ -44,19 +44,27 @@ const FOOTING: f64 = 1e-2;
 /// not seen. Fewer: a block squeezed between two walls is reported.
 const FEW: usize = 4;
 
-/// What is pressed to its supports by at least this share of its weight, beside its weight, may hang
-/// on them by friction. Larger: grips on rough things are reported. Smaller: drawings on their side
-/// with a wind on them are not.
-const PRESSED: f64 = 0.1;
-
-/// Whether dead loads press the free blocks to supports that push them this way, or members hold
-/// them: they may stay where they are beside a wall.
+/// Whether the free blocks may stay where they are beside a wall: dead loads press them to supports
+/// that push them this way so that friction can carry their weight, or a member holds or presses one.
 fn is_held(model: &Model, push: &Vector3<f64>) -> bool {
     let Model { assembly, interfaces, .. } = model;
     let load = |i: usize| -(assembly.dead[i].force - assembly.self_weight(i).force).dot(push);
-    let pressed: f64 = assembly.free().map(load).sum();
+    let pressed = assembly.free().map(load).sum::<f64>() / push.norm();
     let weight: f64 = assembly.free().map(|i| assembly.weight(i)).sum();
-    pressed > PRESSED * weight * push.norm() || interfaces.members.iter().any(|m| !m.is_idle())
+    let held = |i: usize| assembly.blocks[i].support;
+    let rubs = |f: &&Interface| held(f.a) != held(f.b);
+    let carries = |f: &Interface| pressed > 0.0 && f.law.friction.mu() * pressed >= weight;
+    // What is level and along the wall, as the tie of an arch that lies on its side, does neither.
+    let across = |d: &Vector3<f64>| {
+        [assembly.gravity, *push].iter().any(|w| d.dot(w).abs() > LEVEL * d.norm() * w.norm())
+    };
+    let holds = |m: &Member| match &m.action {
+        Action::Line(anchors) => anchors.windows(2).any(|w| across(&(w[1].at - w[0].at))),
+        Action::Push { direction, .. } => across(direction),
+        Action::Shear { .. } | Action::Press { .. } => true,
+    };
+    interfaces.list.iter().filter(rubs).any(carries)
+        || interfaces.members.iter().any(|m| !m.is_idle() && holds(m))
 }
 
 /// What looks like a mistake of axes.
