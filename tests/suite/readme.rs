@@ -179,6 +179,23 @@ fn charts_are_those_of_the_commands(folder: &Path) {
     assert!(plans >= 3);
 }
 
+/// `cargo run` at the root, the README's first command, runs the only program that is built there.
+#[test]
+fn one_program_is_built_at_the_root() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let manifest = std::fs::read_to_string(root.join("Cargo.toml")).unwrap();
+    let list = manifest.split("default-members = [").nth(1).unwrap().split(']').next().unwrap();
+    let members: Vec<&str> = list.split('"').skip(1).step_by(2).filter(|m| *m != ".").collect();
+    assert!(members.len() > 5);
+    for member in members {
+        let folder = root.join(member);
+        let own = std::fs::read_to_string(folder.join("Cargo.toml")).unwrap();
+        let programs = ["main.rs", "bin", "src/main.rs", "src/bin"];
+        let other = programs.iter().any(|p| folder.join(p).exists()) || own.contains("[[bin]]");
+        assert!(!other, "{member} builds a program: `cargo run` does not know which to run");
+    }
+}
+
 /// Pages of `docs/` whose console blocks are run where they stand.
 const PAGES: [&str; 5] =
     ["docs/bridges.md", "docs/ground.md", "docs/kinematic.md", "docs/stages.md", "docs/state.md"];
