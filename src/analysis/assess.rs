@@ -5,6 +5,7 @@
 use super::{
     Bracket, Deciding, Proved,
     coulomb::{DryState, StateMotion, state},
+    flats,
     forest::{Fate, Forest},
     ladder::{Control, Rung, is_large, run, steps},
     parts, repair,
@@ -111,6 +112,11 @@ pub(super) fn unproved(model: &Model, control: &Control) -> Assessment {
 
 /// The same for one part.
 pub(super) fn of_part(model: &Model, control: &Control) -> Assessment {
+    flats::assess(model, control, &with_normals)
+}
+
+/// The same where every contact has one normal.
+fn with_normals(model: &Model, control: &Control) -> Assessment {
     if let Some(answer) = falls_freely(model) {
         return answer;
     }

@@ -12,6 +12,7 @@ pub mod critical;
 pub mod critical_value;
 mod directions;
 pub mod doubt;
+mod flats;
 pub mod follow;
 mod forest;
 pub mod geometric;

@@ -9,6 +9,7 @@
 use super::{
     Proved,
     assess::{least_unbalance, wedges},
+    flats,
     ladder::{Control, Rung, is_large, run, steps},
     parts, repair,
     warm_start::Near,
@@ -136,6 +137,16 @@ pub(super) fn of_part_near(
     control: &Control,
     near: &mut Option<Passed>,
 ) -> LoadFactor {
+    // The point of other contacts is none of these.
+    let ask = &mut |own: &Model, control: &Control| match std::ptr::eq(own, model) {
+        true => with_normals(own, control, near),
+        false => with_normals(own, control, &mut None),
+    };
+    flats::limit(model, control, ask)
+}
+
+/// The same where every contact has one normal.
+fn with_normals(model: &Model, control: &Control, near: &mut Option<Passed>) -> LoadFactor {
     let Model { assembly, interfaces, .. } = model;
     // The last of many directions may find the time already over: nothing is built for it.
     if control.deadline.is_over() {

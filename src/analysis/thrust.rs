@@ -5,7 +5,7 @@
 //! own. Beside it stands the geometric safety factor ([`geometric`](super::geometric)).
 
 use super::{
-    Assessment, Control, Proved, assess,
+    Assessment, Control, Proved, assess, flats,
     geometric::{Geometric, geometric_factor},
     ladder::{Candidate, Rung, run},
     parts,
@@ -244,6 +244,18 @@ pub fn thrust(
 
 /// The same for one part.
 pub(super) fn of_part(
+    model: &Model,
+    at: &Sought,
+    extreme: Extreme,
+    standing: &Forces,
+    control: &Control,
+) -> ThrustEnd {
+    let ask = |model: &Model, standing: &Forces| with_normals(model, at, extreme, standing, control);
+    flats::thrust(model, standing, &ask)
+}
+
+/// The same where every contact has one normal.
+fn with_normals(
     model: &Model,
     at: &Sought,
     extreme: Extreme,

@@ -158,8 +158,10 @@ pub enum FindingCode {
     NearMiss,
     /// Blocks overlap.
     Overlap,
-    /// Contacts without a definite normal, or below the least area, were ignored.
+    /// Contacts between other blocks' faces, or below the least area, were ignored.
     ContactIgnored,
+    /// Edges or corners that meet others, with several normals, stand for small flats.
+    Flattened,
     /// Free blocks without a contact path to a support.
     Floating,
     /// A given normal that points against the line from the first block's centre to the second's.
@@ -205,7 +207,8 @@ impl FindingCode {
             | Self::Mended
             | Self::Warped
             | Self::GapClosed
-            | Self::ContactIgnored => false,
+            | Self::ContactIgnored
+            | Self::Flattened => false,
             Self::Numerics | Self::LeftOut | Self::Converted | Self::WorstCase => false,
         }
     }

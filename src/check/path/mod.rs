@@ -195,6 +195,7 @@ impl<'a> Carried<'a> {
     fn contact(&self, poses: &[Pose], k: usize, closed: &[usize]) -> Interface {
         let face = &self.start.interfaces.list[k];
         let at = |p: usize| self.copies(poses, k, p)[0];
+        let ways = face.ways.iter().map(|w| poses[face.a].turn * w).collect();
         if closed.len() == face.points.len() {
             let turn = poses[face.a].turn;
             let center = self.start.assembly.blocks[face.a].centroid;
@@ -204,11 +205,12 @@ impl<'a> Carried<'a> {
                 frame: ContactFrame { t1: turn * t1, t2: turn * t2, n: turn * n },
                 points: face.points.iter().map(moved).collect(),
                 pieces: face.pieces.iter().map(|p| p.iter().map(moved).collect()).collect(),
+                ways,
                 ..face.clone()
             };
         }
         let n = closed.iter().map(|&p| self.normal(poses, k, p)).sum::<Vector3<f64>>().normalize();
-        let flat = Interface { area: 0.0, patches: 1, pieces: Vec::new(), ..face.clone() };
+        let flat = Interface { area: 0.0, patches: 1, pieces: Vec::new(), ways, ..face.clone() };
         if self.spans(k, closed) {
             let points = closed.iter().map(|&p| at(p)).collect();
             return Interface { frame: ContactFrame::around(n), points, ..flat };

@@ -81,6 +81,7 @@ pub(super) fn joints(assembly: &Assembly, known: &[Interface]) -> Vec<(Interface
                         area: 0.0,
                         patches: 1,
                         pieces: Vec::new(),
+                        ways: Vec::new(),
                         gap: 0.0,
                         law,
                     };

@@ -163,6 +163,7 @@ impl Carried<'_> {
                     area,
                     patches: 1,
                     pieces: Vec::new(),
+                    ways: Vec::new(),
                     ..face.clone()
                 };
                 Some((contact, own))

@@ -162,6 +162,7 @@ mod tests {
                 area: 0.0,
                 patches: 1,
                 pieces: Vec::new(),
+                ways: Vec::new(),
                 gap: 0.0,
                 law: JointLaw::dry(Friction::Coefficient(0.5)),
             };

@@ -18,7 +18,7 @@ pub mod tilted;
 
 use model::{
     assembly::{Assembly, Wrench},
-    interface::Interfaces,
+    interface::{Interfaces, Model},
 };
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -61,6 +61,21 @@ pub type Forces = Vec<Vec<Wrench>>;
 pub fn no_forces(interfaces: &Interfaces) -> Forces {
     let contacts = interfaces.list.iter().map(|face| vec![Wrench::zero(); face.points.len()]);
     contacts.chain(interfaces.members.iter().map(|_| vec![Wrench::zero()])).collect()
+}
+
+/// The model with every way in which its flats may act, and these forces, none of them in a way:
+/// forces are admissible across a flat, and a mechanism is one that closes no way. Nothing where
+/// every contact has one normal.
+pub fn in_every_way(model: &Model, forces: &Forces) -> Option<(Model, Forces)> {
+    let wide = model.every_way()?;
+    if forces.is_empty() {
+        return Some((wide, Forces::new()));
+    }
+    let (contacts, members) = forces.split_at(model.interfaces.list.len().min(forces.len()));
+    let ways = &wide.interfaces.list[model.interfaces.list.len()..];
+    let none = ways.iter().map(|f| vec![Wrench::zero(); f.points.len()]);
+    let forces = contacts.iter().cloned().chain(none).chain(members.iter().cloned()).collect();
+    Some((wide, forces))
 }
 
 /// What a claim is proved by.

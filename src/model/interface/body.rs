@@ -90,6 +90,8 @@ pub(super) struct Topology {
 /// An edge between two facets.
 pub(super) struct Edge {
     pub ends: [u32; 2],
+    /// The two facets.
+    pub facets: [usize; 2],
     /// Unit directions from the edge into its two facets, perpendicular to the edge.
     pub into: [Vector3<f64>; 2],
     /// Whether the solid takes up less than half of the space around the edge.
@@ -225,7 +227,12 @@ impl Topology {
                 let along = at(q) - at(p);
                 // A facet lies to the left of its sides, seen from outside.
                 let into = [unit(one.cross(&along)), -unit(other.cross(&along))];
-                edges.push(Edge { ends: [p, q], convex: into[0].dot(other) < 0.0, into });
+                edges.push(Edge {
+                    ends: [p, q],
+                    facets: [i, j],
+                    convex: into[0].dot(other) < 0.0,
+                    into,
+                });
             }
         }
         Self { edges, corners, rims }

@@ -20,6 +20,7 @@ use super::{
     limits::Limits,
     overlap,
     plane::Plane,
+    polygon, rims,
     spheres,
     tally::Tally,
 };
@@ -80,6 +81,9 @@ pub fn detect_until(
     }
     take_apart(&mut pairs, &mut tally, assembly);
 
+    let covers = Covers::of(&pairs);
+    pairs.iter_mut().for_each(|pair| pair.meet_at_rims(&bodies, &covers));
+
     let (mut points, mut apart) = (0, Vec::new());
     for Pair { a, b, limits, meeting } in pairs {
         if assembly.blocks[a].support && assembly.blocks[b].support {
@@ -92,7 +96,7 @@ pub fn detect_until(
         if let Some(overlap) = meeting.overlap {
             tally.overlap(overlap.depth, overlap.closing, &limits, a, b);
         }
-        if meeting.without_normal {
+        if meeting.idle {
             tally.without_normal(a, b);
         }
         meeting.small.iter().for_each(|&area| tally.small(area));
@@ -110,6 +114,9 @@ pub fn detect_until(
         }
         for contact in meeting.contacts {
             tally.contact(contact.gap, &limits);
+            if !contact.ways.is_empty() {
+                tally.flattened(a, b);
+            }
             interfaces.list.push(Interface {
                 a,
                 b,
@@ -119,6 +126,7 @@ pub fn detect_until(
                 area: contact.area,
                 patches: contact.patches,
                 pieces: contact.pieces,
+                ways: contact.ways,
                 gap: contact.gap.mean,
                 law,
             });
@@ -195,7 +203,10 @@ struct Meeting {
     near: Option<Near>,
     overlap: Option<Overlap>,
     small: Vec<f64>,
-    without_normal: bool,
+    /// Whether rims may meet.
+    rims: bool,
+    /// Whether the blocks meet at rims alone, where nothing carries.
+    idle: bool,
 }
 
 /// An [`Interface`] before its friction is known.
@@ -206,6 +217,7 @@ struct Contact {
     area: f64,
     patches: usize,
     pieces: Vec<Vec<Vector3<f64>>>,
+    ways: Vec<Vector3<f64>>,
     gap: Gap,
 }
 
@@ -229,7 +241,7 @@ impl Meeting {
             && self.near.is_none()
             && self.overlap.is_none()
             && self.small.is_empty()
-            && !self.without_normal
+            && !self.rims
     }
 }
 
@@ -297,11 +309,7 @@ fn polyhedra(
             meeting.overlap =
                 overlap::depth(p, q, &common, limits).map(|depth| Overlap { depth, closing });
         }
-        meeting.without_normal = !on_faces
-            && meeting.contacts.is_empty()
-            && meeting.small.is_empty()
-            && meeting.overlap.is_none()
-            && features::meet_without_normal(p, q, &window(limits.gap), limits);
+        meeting.rims = meeting.overlap.is_none();
     }
     if meeting.overlap.is_none() {
         meeting.near = facing.near.map(|n| Near {
@@ -327,6 +335,7 @@ fn of_touch(touch: Touch, sign: f64) -> Contact {
         area: 0.0,
         patches: touch.patches,
         pieces: Vec::new(),
+        ways: touch.ways.iter().map(|w| w * sign).collect(),
         gap: touch.gap,
     }
 }
@@ -344,7 +353,108 @@ fn of_face(face: &FaceContact, limits: &Limits) -> Contact {
         } else {
             face.pieces.iter().map(lift).collect()
         },
+        ways: Vec::new(),
         gap: face.gap,
+    }
+}
+
+impl Contact {
+    /// Whether a touch at `p` along one of `ways` is this one.
+    fn is_at(&self, p: Vector3<f64>, ways: &[Vector3<f64>], limits: &Limits) -> bool {
+        let here = match self.kind {
+            ContactKind::Face => lies_on(&self.points, &self.pieces, &self.frame, p, limits),
+            _ => {
+                let [q, r] = [self.points[0], self.points[self.points.len() - 1]];
+                features::distance_to_segment(p, q, r) <= 2.0 * limits.gap
+            }
+        };
+        here && rims::is_among(&self.frame.n, ways, 2.0 * limits.chord)
+    }
+}
+
+/// Whether `p` lies on a face contact.
+fn lies_on(
+    points: &[Vector3<f64>],
+    pieces: &[Vec<Vector3<f64>>],
+    frame: &ContactFrame,
+    p: Vector3<f64>,
+    limits: &Limits,
+) -> bool {
+    let plane = Plane { origin: points[0], frame: *frame };
+    let inside = |polygon: &[Vector3<f64>]| {
+        let flat: Vec<_> = polygon.iter().map(|&x| plane.flat(x)).collect();
+        polygon::contains(&flat, plane.flat(p), limits.gap)
+    };
+    plane.height(p).abs() <= limits.gap
+        && if pieces.is_empty() { inside(points) } else { pieces.iter().any(|q| inside(q)) }
+}
+
+/// What lies against the faces of each block.
+#[derive(Default)]
+struct Covers(HashMap<usize, Vec<Cover>>);
+
+/// A face contact, as one of its blocks sees it.
+struct Cover {
+    other: usize,
+    /// The normal points out of the block.
+    frame: ContactFrame,
+    points: Vec<Vector3<f64>>,
+    pieces: Vec<Vec<Vector3<f64>>>,
+}
+
+impl Covers {
+    /// Those of the blocks whose rims may meet others.
+    fn of(pairs: &[Pair]) -> Self {
+        let asked: HashSet<usize> =
+            pairs.iter().filter(|p| p.meeting.rims).flat_map(|p| [p.a, p.b]).collect();
+        let mut covers = Self::default();
+        for pair in pairs {
+            for (own, other, turn) in [(pair.a, pair.b, false), (pair.b, pair.a, true)] {
+                if !asked.contains(&own) {
+                    continue;
+                }
+                let faces = pair.meeting.contacts.iter().filter(|c| c.kind == ContactKind::Face);
+                covers.0.entry(own).or_default().extend(faces.map(|c| Cover {
+                    other,
+                    frame: if turn { ContactFrame::around(-c.frame.n) } else { c.frame },
+                    // In order around their normal.
+                    points: if turn { c.points.iter().rev().copied().collect() } else { c.points.clone() },
+                    pieces: c.pieces.iter().map(|p| if turn { p.iter().rev().copied().collect() } else { p.clone() }).collect(),
+                }));
+            }
+        }
+        covers
+    }
+
+    /// Whether a block other than `b` lies against the face of `a` with this normal, at a point.
+    fn any(&self, [a, b]: [usize; 2], n: &Vector3<f64>, at: Vector3<f64>, limits: &Limits) -> bool {
+        self.0.get(&a).into_iter().flatten().any(|c| {
+            c.other != b
+                && (c.frame.n - n).norm() <= 2.0 * limits.chord
+                && lies_on(&c.points, &c.pieces, &c.frame, at, limits)
+        })
+    }
+}
+
+impl Pair {
+    /// Adds what meets at rims.
+    fn meet_at_rims(&mut self, bodies: &[BoundedBlock], covers: &Covers) {
+        let (a, b, limits) = (&bodies[self.a], &bodies[self.b], &self.limits);
+        let (Form::Polyhedron(p), Form::Polyhedron(q)) = (&a.shape, &b.shape) else { return };
+        if !self.meeting.rims {
+            return;
+        }
+        let window = a.bounds.loosened(limits.gap).common(&b.bounds.loosened(limits.gap));
+        let of_a = |n: &Vector3<f64>, at| covers.any([self.a, self.b], n, at, limits);
+        let of_b = |n: &Vector3<f64>, at| covers.any([self.b, self.a], n, at, limits);
+        let sides = [
+            &rims::Side { solid: p, covered: &of_a },
+            &rims::Side { solid: q, covered: &of_b },
+        ];
+        let known = |p, ways: &[_]| self.meeting.contacts.iter().any(|c| c.is_at(p, ways, limits));
+        let rims = rims::meet(sides, &window, limits, &known);
+        self.meeting.idle = rims.idle && self.meeting.contacts.is_empty() && rims.touches.is_empty();
+        self.meeting.contacts.extend(rims.touches.into_iter().map(|t| of_touch(t, 1.0)));
     }
 }
 

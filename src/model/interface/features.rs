@@ -7,8 +7,8 @@
 //! touch. A touch counts where neither block digs into the other there: around an edge both facets,
 //! around a corner all sides, lie on the outer side.
 //!
-//! Parallel edges, an edge on a face's rim, a corner on an edge and two corners have no definite
-//! normal. They are not taken; [`meet_without_normal`] finds them so that they can be counted.
+//! Edges along each other, an edge on a face's rim, a corner on an edge and two corners may have many
+//! normals: they are [rims](super::rims).
 
 use super::{
     body::{Bounds, Edge, Solidity, unit},
@@ -25,6 +25,8 @@ use nalgebra::Vector3;
 pub(super) struct Touch {
     /// Unit normal from `a` into `b`.
     pub n: Vector3<f64>,
+    /// Where it is not the only one: the outermost of all.
+    pub ways: Vec<Vector3<f64>>,
     /// The two ends of the edge, or the point, half-way between the blocks.
     pub points: Vec<Vector3<f64>>,
     /// Pieces of the edge that touch.
@@ -78,7 +80,7 @@ pub(super) fn touches(
 
 impl Touch {
     pub(super) fn point(n: Vector3<f64>, at: Vector3<f64>, gap: f64) -> Self {
-        Self { n, points: vec![at], patches: 1, gap: Gap { least: gap, mean: gap, greatest: gap } }
+        Self { n, ways: Vec::new(), points: vec![at], patches: 1, gap: Gap { least: gap, mean: gap, greatest: gap } }
     }
 
     fn covers(&self, p: Vector3<f64>, n: &Vector3<f64>, limits: &Limits) -> bool {
@@ -221,6 +223,7 @@ fn edge_contact(line: &[Segment], limits: &Limits) -> Touch {
     let gaps = || line.iter().flat_map(|s| s.gaps);
     Touch {
         n,
+        ways: Vec::new(),
         points: vec![ends[0], ends[ends.len() - 1]],
         patches,
         gap: Gap {
@@ -311,7 +314,7 @@ pub(super) fn separating(
 }
 
 /// Edges of `a` and `b` whose boxes come within `reach` of each other.
-fn edge_pairs<'s>(
+pub(super) fn edge_pairs<'s>(
     a: &'s Solidity,
     b: &'s Solidity,
     window: &Bounds,
@@ -328,26 +331,6 @@ fn edge_pairs<'s>(
         pairs.extend(of_b.iter().filter(|(_, other)| around.meets(other)).map(|&(eb, _)| (ea, eb)));
     }
     pairs
-}
-
-/// Whether the blocks come within the gap along an edge or at a corner. Asked only of pairs without
-/// any contact.
-pub(super) fn meet_without_normal(
-    a: &Solidity,
-    b: &Solidity,
-    window: &Bounds,
-    limits: &Limits,
-) -> bool {
-    edge_pairs(a, b, window, limits.gap).iter().any(|(ea, eb)| {
-        let ([pa, qa], [pb, qb]) = (a.ends(ea.ends), b.ends(eb.ends));
-        let (ta, tb) = nearest_of_lines(pa, qa, pb, qb);
-        let crossing = (0.0..=1.0).contains(&ta)
-            && (0.0..=1.0).contains(&tb)
-            && (pa + (qa - pa) * ta - pb - (qb - pb) * tb).norm() <= limits.gap;
-        crossing
-            || [pa, qa].iter().any(|&p| distance_to_segment(p, pb, qb) <= limits.gap)
-            || [pb, qb].iter().any(|&p| distance_to_segment(p, pa, qa) <= limits.gap)
-    })
 }
 
 /// Fractions along two segments at which their lines come closest; beyond 0..1 where that is off

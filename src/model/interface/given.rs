@@ -33,6 +33,7 @@ pub(super) fn interface(given: &GivenInterface, limits: &Limits) -> Interface {
         area: area.abs(),
         patches: 1,
         pieces: Vec::new(),
+        ways: Vec::new(),
         gap: 0.0,
         law: given.law,
     }

@@ -18,6 +18,7 @@ mod overlap;
 mod parts;
 mod plane;
 mod reach;
+mod rims;
 mod shrink;
 mod spheres;
 mod stage;
@@ -79,6 +80,10 @@ pub struct Interface {
     pub patches: usize,
     /// Convex pieces of the contact where it is not simply the hull; empty otherwise.
     pub pieces: Vec<Vec<Vector3<f64>>>,
+    /// Where edges or corners meet and several directions keep the blocks apart: the outermost of
+    /// them, unit, from `a` into `b`. The contact stands for all of them, with a small flat across
+    /// the one in their middle ([`Model::every_way`]). Empty where the normal is the only one.
+    pub ways: Vec<Vector3<f64>>,
     /// Mean signed gap before closing, m (> 0 open, < 0 overlap).
     pub gap: f64,
     /// How it resists.

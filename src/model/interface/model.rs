@@ -1,8 +1,9 @@
 //! Scene → assembly → interfaces, timed.
 
-use super::{Interface, Interfaces, axes, detect, detect_until, floating};
+use super::{ContactFrame, Interface, Interfaces, axes, detect, detect_until, floating};
 use crate::assembly::{self, AppliedForce, Assembly, Member};
 use base::error::{Finding, FindingCode, InputError};
+use nalgebra::Vector3;
 use scene::Scene;
 use serde::{Deserialize, Serialize};
 
@@ -112,6 +113,36 @@ impl Model {
             left_out: self.interfaces.left_out,
         };
         Self { timings: self.timings, ..Self::new(assembly, interfaces) }
+    }
+
+    /// The same with every flat also touching in each of its [ways](super::Interface::ways), behind
+    /// the other contacts: at equal friction the forces of any normal between them are sums of
+    /// theirs, and a motion that closes none of them closes no normal. Nothing where none is flat.
+    pub fn every_way(&self) -> Option<Self> {
+        let own = &self.interfaces.list;
+        let one = |f: &Interface, n: &Vector3<f64>| {
+            let frame = match f.points[..] {
+                [p, q] => ContactFrame::along(*n, q - p),
+                _ => ContactFrame::around(*n),
+            };
+            Interface { frame, ways: Vec::new(), ..f.clone() }
+        };
+        let more: Vec<Interface> =
+            own.iter().flat_map(|f| f.ways.iter().map(|n| one(f, n))).collect();
+        (!more.is_empty()).then(|| {
+            let mut wide = self.clone();
+            wide.interfaces.list.extend(more);
+            wide
+        })
+    }
+
+    /// The same without flats; nothing where none is flat.
+    pub fn without_flats(&self) -> Option<Self> {
+        self.interfaces.list.iter().any(|f| !f.ways.is_empty()).then(|| {
+            let mut less = self.clone();
+            less.interfaces.list.retain(|f| f.ways.is_empty());
+            less
+        })
     }
 
     /// Ids of these blocks.

@@ -21,6 +21,7 @@ pub(super) struct Tally {
     /// `(depth, what would close it, a, b)`
     overlaps: Vec<(f64, Option<Apart>, usize, usize)>,
     without_normal: Vec<(usize, usize)>,
+    flattened: Vec<(usize, usize)>,
     held_apart: Vec<(usize, usize)>,
 }
 
@@ -65,6 +66,10 @@ impl Tally {
         if gap.least < -limits.noise {
             self.pressed.add(-gap.least);
         }
+    }
+
+    pub fn flattened(&mut self, a: usize, b: usize) {
+        self.flattened.push((a, b));
     }
 
     pub fn small(&mut self, area: f64) {
@@ -125,6 +130,7 @@ impl Tally {
             self.neighbours_apart(assembly),
             self.overlapping(assembly),
             self.without_a_normal(assembly),
+            self.on_flats(assembly),
             self.small_areas(assembly),
             self.apart(assembly),
         ];
@@ -243,11 +249,25 @@ impl Tally {
     fn without_a_normal(&self, assembly: &Assembly) -> Option<Finding> {
         let &(a, b) = self.without_normal.first()?;
         let text = format!(
-            "{} of blocks touch only along an edge or at a corner, such as {}; such a touch has no definite normal and carries nothing here (usual between diagonal neighbours)",
+            "{} of blocks touch only along an edge or at a corner, such as {}, with other blocks against the faces there; such a touch carries nothing (usual between diagonal neighbours)",
             pairs(self.without_normal.len()),
             pair(assembly, a, b)
         );
         Some(Finding::new(FindingCode::ContactIgnored, text))
+    }
+
+    /// Edges and corners that meet edges and corners.
+    fn on_flats(&self, assembly: &Assembly) -> Option<Finding> {
+        let &(a, b) = self.flattened.first()?;
+        let (touch, it) = match self.flattened.len() {
+            1 => ("1 edge or corner meets another".to_string(), "it"),
+            n => (format!("{n} edges or corners meet others"), "each"),
+        };
+        let text = format!(
+            "{touch}, such as {}, and several normals keep them apart: {it} may carry across a small flat in their middle, and nothing that needs another normal is proved. Where that matters, draw the flat that a real edge has, or give the normal in \"interfaces\"",
+            pair(assembly, a, b)
+        );
+        Some(Finding::new(FindingCode::Flattened, text))
     }
 
     /// Areas that were too small.

@@ -26,6 +26,7 @@ fn face(points: &[[f64; 2]]) -> Interface {
         area: 0.0,
         patches: 1,
         pieces: Vec::new(),
+        ways: Vec::new(),
         gap: 0.0,
         law,
     };

@@ -12,7 +12,7 @@ pub use load_factor::{dry_map, dry_width, ends, upper_bound};
 pub use motion::moving;
 
 use super::{
-    Evidence, Verdict, certificate, thrust,
+    Evidence, Verdict, certificate, in_every_way, thrust,
     thrust::{Extreme, MemberAt, Sought, ThrustAt},
 };
 use balance::live_alone_balances;
@@ -121,8 +121,18 @@ impl Claim {
     }
 }
 
-/// Verifies a claim.
+/// Verifies a claim. Forces count across flats; rates must close none of the ways in which a flat may
+/// act.
 pub fn verify(model: &Model, claim: &Claim, evidence: Evidence) -> Findings {
+    let Some((wide, forces)) = in_every_way(model, evidence.forces) else {
+        return of_normals(model, claim, evidence);
+    };
+    let base = evidence.base.and_then(|base| Some(in_every_way(model, base)?.1));
+    of_normals(&wide, claim, Evidence { forces: &forces, base: base.as_ref(), ..evidence })
+}
+
+/// The same where every contact has one normal.
+fn of_normals(model: &Model, claim: &Claim, evidence: Evidence) -> Findings {
     let Evidence { forces, base, rates } = evidence;
     let assembly = &model.assembly;
     let mut f = Findings::default();

@@ -248,6 +248,7 @@ fn contact(face: &Interface, units: &Units, place: &[usize]) -> Interface {
         area: face.area / units.length / units.length,
         patches: face.patches,
         pieces: face.pieces.iter().map(|piece| points(piece)).collect(),
+        ways: face.ways.clone(),
         gap: face.gap / units.length,
         law: JointLaw { rolling_arm: face.law.rolling_arm / units.length, ..law },
     }
