@@ -24,6 +24,28 @@ use scene::Friction;
 
 /// Why an answer, or the governing part of it, is undecided; nothing where it is decided.
 pub fn doubt(answer: &Answer, model: &Model, control: &Control) -> Option<Doubt> {
+    let doubt = cause(answer, model, control)?;
+    let solver = matches!(
+        doubt.cause,
+        DoubtCause::Refused | DoubtCause::OnTheLine | DoubtCause::OpenBracket | DoubtCause::NoAttempt
+    );
+    let flats: Vec<_> = model.interfaces.list.iter().filter(|f| !f.ways.is_empty()).collect();
+    let Some(first) = flats.first().filter(|_| solver) else { return Some(doubt) };
+    let [a, b] = [first.a, first.b].map(|i| &model.assembly.blocks[i].id);
+    let more = match flats.len() {
+        1 => String::new(),
+        n => format!(", as {} others do", n - 1),
+    };
+    Doubt::new(
+        DoubtCause::Edges,
+        format!(
+            "an edge or corner of {a} meets one of {b}{more}, and which of several normals acts there decides"
+        ),
+        "draw the flat that a real edge has (1 mm), or give the normal: \"interfaces\": [{ \"between\": …, \"normal\": … }]",
+    )
+}
+
+fn cause(answer: &Answer, model: &Model, control: &Control) -> Option<Doubt> {
     let about = About { model, late: control.deadline.is_set() && control.deadline.is_over() };
     match answer {
         Answer::Assess(a) => about.verdict(a),

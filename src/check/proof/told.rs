@@ -74,6 +74,10 @@ pub struct Told {
     /// Contacts that were left out although blocks overlap or nearly touch, where there are such, and
     /// the answer with them closed.
     pub left_out_contacts: Option<LeftOutContacts>,
+    /// Edges and corners that meet others with several normals: those across whose flat the forces
+    /// of the answer act; all where it is undecided.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub flattened: Vec<[String; 2]>,
     /// What is to be known about the scene.
     #[serde(rename = "warnings", default, skip_serializing_if = "Vec::is_empty")]
     pub scene_warnings: Vec<Finding>,
@@ -131,6 +135,7 @@ impl Told {
             mechanism: None,
             members: Vec::new(),
             left_out_contacts: None,
+            flattened: Vec::new(),
             scene_warnings: Vec::new(),
             counts: Counts::of(model),
         }

@@ -7,6 +7,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum DoubtCause {
+    /// Edges or corners meet with several normals, and which of them acts decides.
+    Edges,
     /// Time was over first.
     TimeLimit,
     /// What came out did not pass its own check on the scene.

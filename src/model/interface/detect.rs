@@ -24,7 +24,7 @@ use super::{
     spheres,
     tally::Tally,
 };
-use crate::assembly::{Assembly, JointLaw};
+use crate::assembly::{Assembly, GivenInterface, JointLaw};
 use base::{
     error::{InputError, JsonPath},
     limits::CONTACT_POINTS,
@@ -52,10 +52,12 @@ pub fn detect_until(
     is_over: &dyn Fn() -> bool,
 ) -> Result<Interfaces, InputError> {
     let bodies: Vec<BoundedBlock> = assembly.blocks.iter().map(BoundedBlock::new).collect();
+    let (whole, normals): (Vec<_>, Vec<_>) =
+        assembly.given.iter().partition(|g| !g.points.is_empty());
     let by_hand: HashSet<(usize, usize)> =
-        assembly.given.iter().map(|g| (g.a.min(g.b), g.a.max(g.b))).collect();
+        whole.iter().map(|g| (g.a.min(g.b), g.a.max(g.b))).collect();
     let mut interfaces = Interfaces::default();
-    for g in &assembly.given {
+    for g in whole {
         interfaces
             .list
             .push(given::interface(g, &Limits::of(&bodies[g.a], &bodies[g.b], &assembly.contact)));
@@ -83,6 +85,7 @@ pub fn detect_until(
 
     let covers = Covers::of(&pairs);
     pairs.iter_mut().for_each(|pair| pair.meet_at_rims(&bodies, &covers));
+    name_normals(&mut pairs, &normals, assembly)?;
 
     let (mut points, mut apart) = (0, Vec::new());
     for Pair { a, b, limits, meeting } in pairs {
@@ -160,6 +163,51 @@ pub fn detect_until(
     interfaces.findings.extend(told);
     Ok(interfaces)
 }
+
+/// Gives touches with several normals the ones that the scene names.
+fn name_normals(
+    pairs: &mut [Pair],
+    normals: &[&GivenInterface],
+    assembly: &Assembly,
+) -> Result<(), InputError> {
+    for g in normals {
+        let refuse = |why: &str| {
+            let [a, b] = [g.a, g.b].map(|i| &assembly.blocks[i].id);
+            let text = format!("the normal of the interface between {a:?} and {b:?} {why}");
+            InputError::at(JsonPath::root().key("interfaces"), text)
+        };
+        let (of, sign) = if g.a < g.b { ((g.a, g.b), 1.0) } else { ((g.b, g.a), -1.0) };
+        let pair = pairs.iter_mut().find(|p| (p.a, p.b) == of);
+        let mut open = pair
+            .into_iter()
+            .flat_map(|p| &mut p.meeting.contacts)
+            .filter(|c| !c.ways.is_empty())
+            .peekable();
+        if open.peek().is_none() {
+            return Err(refuse("is of no use: no edges or corners of the two meet with several normals")
+                .hint("remove it, or give the points of the contact as well"));
+        }
+        for contact in open {
+            let n = g.normal * sign;
+            if !rims::is_among(&n, &contact.ways, NAMED) {
+                return Err(refuse("digs one of them into the other where they meet")
+                    .hint("it points from the first block into the second"));
+            }
+            contact.ways.clear();
+            contact.frame = match contact.points[..] {
+                [p, q] => {
+                    let along = (q - p).normalize();
+                    ContactFrame::along((n - along * n.dot(&along)).normalize(), along)
+                }
+                _ => ContactFrame::around(n),
+            };
+        }
+    }
+    Ok(())
+}
+
+/// How far a named normal may lie outside those that are possible: written with three digits.
+const NAMED: f64 = 1e-3;
 
 /// How the joint between two blocks that touch resists.
 fn law(assembly: &Assembly, a: usize, b: usize) -> Result<JointLaw, InputError> {
@@ -309,8 +357,9 @@ fn polyhedra(
             meeting.overlap =
                 overlap::depth(p, q, &common, limits).map(|depth| Overlap { depth, closing });
         }
-        meeting.rims = meeting.overlap.is_none();
     }
+    meeting.rims =
+        meeting.overlap.is_none() && facing.near.is_none() && !(convex && on_faces);
     if meeting.overlap.is_none() {
         meeting.near = facing.near.map(|n| Near {
             gap: n.gap,
@@ -444,17 +493,35 @@ impl Pair {
         if !self.meeting.rims {
             return;
         }
-        let window = a.bounds.loosened(limits.gap).common(&b.bounds.loosened(limits.gap));
-        let of_a = |n: &Vector3<f64>, at| covers.any([self.a, self.b], n, at, limits);
-        let of_b = |n: &Vector3<f64>, at| covers.any([self.b, self.a], n, at, limits);
-        let sides = [
-            &rims::Side { solid: p, covered: &of_a },
-            &rims::Side { solid: q, covered: &of_b },
-        ];
-        let known = |p, ways: &[_]| self.meeting.contacts.iter().any(|c| c.is_at(p, ways, limits));
-        let rims = rims::meet(sides, &window, limits, &known);
-        self.meeting.idle = rims.idle && self.meeting.contacts.is_empty() && rims.touches.is_empty();
-        self.meeting.contacts.extend(rims.touches.into_iter().map(|t| of_touch(t, 1.0)));
+        let common = |slack: f64| a.bounds.loosened(slack).common(&b.bounds.loosened(slack));
+        let (of_a, of_b) = ([self.a, self.b], [self.b, self.a]);
+        let covered = |limits: &Limits| {
+            let limits = *limits;
+            [of_a, of_b].map(|of| move |n: &Vector3<f64>, at| covers.any(of, n, at, &limits))
+        };
+        if a.bounds.distance(&b.bounds) <= limits.gap {
+            let known =
+                |p, ways: &[_]| self.meeting.contacts.iter().any(|c| c.is_at(p, ways, limits));
+            let rims = rims::meet([p, q], &common(limits.gap), limits, &covered(limits), &known);
+            self.meeting.idle =
+                rims.idle && self.meeting.contacts.is_empty() && rims.touches.is_empty();
+            self.meeting.contacts.extend(rims.touches.into_iter().map(|t| of_touch(t, 1.0)));
+        }
+        if !self.meeting.contacts.is_empty() || self.meeting.near.is_some() || self.meeting.idle {
+            return;
+        }
+        // What would touch if more were closed.
+        let far = Limits { gap: limits.near, ..*limits };
+        let window = common(far.gap);
+        let mut near = features::touches(p, q, &window, &far, &|_, _| false);
+        near.extend(rims::meet([p, q], &window, &far, &covered(&far), &|_, _| false).touches);
+        let gap = |t: &Touch| t.gap.greatest.max(-t.gap.least);
+        let nearest = near.iter().map(gap).fold(f64::INFINITY, f64::min);
+        self.meeting.near = nearest.is_finite().then_some(Near {
+            gap: nearest,
+            closing: Closing { gap: nearest, lean: 0.0 },
+            plane: None,
+        });
     }
 }
 

@@ -6,10 +6,11 @@ use nalgebra::Vector3;
 use scene::ContactSpec;
 
 /// What counts as touching between two given blocks. All lengths derive from the size of the
-/// smaller block, and none is below the rounding of the coordinates.
+/// smaller block, and none is below the rounding of the coordinates. A support is as large as it was
+/// drawn, which says nothing: beside a free block only that one counts.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limits {
-    /// Size of the smaller block, m.
+    /// Size of the smaller free block, of two supports of the smaller one, m.
     pub size: f64,
     /// Gaps and overlaps up to this are closed, m.
     pub gap: f64,
@@ -34,7 +35,11 @@ pub(super) fn near(spec: &ContactSpec) -> f64 {
 
 impl Limits {
     pub fn of(a: &BoundedBlock, b: &BoundedBlock, spec: &ContactSpec) -> Self {
-        let size = a.block.size.min(b.block.size);
+        let size = match (a.block.support, b.block.support) {
+            (true, false) => b.block.size,
+            (false, true) => a.block.size,
+            _ => a.block.size.min(b.block.size),
+        };
         // The greater block's corners count too: they carry the plane the smaller one lies on.
         let rounding = tolerance::COORDINATE_ROUNDING * a.bounds.reach().max(b.bounds.reach());
         let gap = (spec.gap * size).max(rounding);

@@ -20,13 +20,11 @@ use nalgebra::{Matrix3, Vector3};
 /// Directions this close are one.
 const SAME: f64 = 10.0 * CONTACT_ROUNDING_ANGLE;
 
-/// Whether a facet with this outward normal has a third block against it at a point.
-pub(super) type Covered<'a> = &'a dyn Fn(&Vector3<f64>, Vector3<f64>) -> bool;
-
 /// A block and what lies against it.
-pub(super) struct Side<'a> {
-    pub solid: &'a Solidity<'a>,
-    pub covered: Covered<'a>,
+struct Side<'a> {
+    solid: &'a Solidity<'a>,
+    /// Whether a facet with this outward normal has a third block against it at a point.
+    covered: &'a dyn Fn(&Vector3<f64>, Vector3<f64>) -> bool,
 }
 
 /// What was found at the rims of two blocks.
@@ -41,13 +39,18 @@ pub(super) struct Rims {
 /// The sheets of a block around a place: normals of facets that turn convex edges to each other.
 type Sheets = Vec<Vec<Vector3<f64>>>;
 
-/// All rims that meet; `known` says whether a direction at a point is that of a contact already.
+/// All rims that meet. `covered` says of each block whether a facet with this outward normal has a
+/// third one against it at a point, `known` whether one of these directions at a point is that of a
+/// contact already.
 pub(super) fn meet(
-    [a, b]: [&Side; 2],
+    [a, b]: [&Solidity; 2],
     window: &Bounds,
     limits: &Limits,
+    covered: &[impl Fn(&Vector3<f64>, Vector3<f64>) -> bool; 2],
     known: &dyn Fn(Vector3<f64>, &[Vector3<f64>]) -> bool,
 ) -> Rims {
+    let [a, b] =
+        [Side { solid: a, covered: &covered[0] }, Side { solid: b, covered: &covered[1] }];
     let mut rims = Rims::default();
     let mut add = |points: [Vector3<f64>; 2], gap: f64, [one, other]: [Sheets; 2]| {
         let middle = (points[0] + points[1]) / 2.0;

@@ -77,6 +77,9 @@ pub(crate) fn title(page: &mut Page, file: &ResultFile) {
     {
         (text, role) = (format!("{text}; {words}"), Role::Bad);
     }
+    if let Some(words) = flattened(file) {
+        text = format!("{text}{words}");
+    }
     if let Some(words) = left_out(file) {
         role = if role == Role::Good { Role::Unsure } else { role };
         text = format!("{text}; {words}");
@@ -85,6 +88,17 @@ pub(crate) fn title(page: &mut Page, file: &ResultFile) {
         text = format!("{text}: {}; {}", doubt.evidence, doubt.next);
     }
     page.title(&file.scene.name, under(file, text), role);
+}
+
+/// What an answer rests on where edges and corners meet with several normals. Why one is undecided
+/// is said by its doubt.
+fn flattened(file: &ResultFile) -> Option<String> {
+    let [a, b] = file.flattened.first()?;
+    match file.flattened.len() {
+        _ if file.run.doubt.is_some() => None,
+        1 => Some(format!(" with the edge of {a} and {b} flattened")),
+        n => Some(format!(" with {n} edges and corners flattened, such as that of {a} and {b}")),
+    }
 }
 
 /// What is said with the contact tolerances that it rests on, where the scene has widened them.

@@ -11,6 +11,7 @@ pub(super) use factor::{At, Factor};
 pub(super) use part::deciding;
 
 use super::{
+    certificate::Certificate,
     critical,
     evidence::{
         AssessEvidence, ClosedEvidence, Evidence, LimitEvidence, SimulateEvidence, Standing,
@@ -117,6 +118,7 @@ pub fn derive(
     let mut own = Derivation { question: &question, scene, model, again, check };
     let mut told = own.told(&evidence)?;
     own.left_out(&mut told, closed.as_ref())?;
+    told.flattened = flattened(model, &told.certificate, own.check.claimed);
     told.scene_warnings = model.own_findings().cloned().collect();
     let check = own.check;
     let name = scene.name.clone();
@@ -322,6 +324,22 @@ impl Derivation<'_> {
         }
         Some(told)
     }
+}
+
+/// The flats of a scene that matter to an answer: what the forces press; where nothing is claimed, all.
+fn flattened(model: &Model, certificate: &Certificate, claimed: bool) -> Vec<[String; 2]> {
+    let Model { assembly, interfaces, .. } = model;
+    if interfaces.list.iter().all(|f| f.ways.is_empty()) {
+        return Vec::new();
+    }
+    let forces = certificate.read(model).map(|read| read.0).unwrap_or_default();
+    let pressed = |k: usize| {
+        forces.get(k).is_some_and(|f| f.iter().any(|w| w.force != Vector3::zeros()))
+    };
+    let flats = interfaces.list.iter().enumerate().filter(|(k, f)| {
+        !f.ways.is_empty() && (!claimed || pressed(*k))
+    });
+    flats.map(|(_, f)| [f.a, f.b].map(|i| assembly.blocks[i].id.clone())).collect()
 }
 
 /// What is told of the state under dry friction: where the verdict rests on it.

@@ -73,10 +73,19 @@ fn one(
         .enumerate()
         .map(|(k, &p)| check::vector(p, &at.index(k)))
         .collect::<Result<Vec<_>, _>>()?;
-    if points.is_empty() {
-        return Err(InputError::at(at, "an interface needs at least one point"));
-    }
     let normal = spec.normal.map(|n| check::direction(n, &path.key("normal"))).transpose()?;
+    if points.is_empty() {
+        if spec.friction.is_some() {
+            return Err(InputError::at(path.key("friction"), "a normal alone takes no friction")
+                .hint("give the points as well, or a joint override for the pair"));
+        }
+        let normal = normal.ok_or_else(|| {
+            InputError::at(path.clone(), "an interface needs at least one point, or a normal").hint(
+                "\"normal\" alone names the direction across which edges or corners of the two meet",
+            )
+        })?;
+        return Ok(GivenInterface { a, b, points, normal, law });
+    }
     let extent = diagonal(&points);
     if !(extent * extent).is_finite() {
         return Err(InputError::at(at, "the points are too far apart to compute with")
