@@ -24,28 +24,6 @@ use scene::Friction;
 
 /// Why an answer, or the governing part of it, is undecided; nothing where it is decided.
 pub fn doubt(answer: &Answer, model: &Model, control: &Control) -> Option<Doubt> {
-    let doubt = cause(answer, model, control)?;
-    let solver = matches!(
-        doubt.cause,
-        DoubtCause::Refused | DoubtCause::OnTheLine | DoubtCause::OpenBracket | DoubtCause::NoAttempt
-    );
-    let flats: Vec<_> = model.interfaces.list.iter().filter(|f| !f.ways.is_empty()).collect();
-    let Some(first) = flats.first().filter(|_| solver) else { return Some(doubt) };
-    let [a, b] = [first.a, first.b].map(|i| &model.assembly.blocks[i].id);
-    let more = match flats.len() {
-        1 => String::new(),
-        n => format!(", as {} others do", n - 1),
-    };
-    Doubt::new(
-        DoubtCause::Edges,
-        format!(
-            "an edge or corner of {a} meets one of {b}{more}, and which of several normals acts there decides"
-        ),
-        "draw the flat that a real edge has (1 mm), or give the normal: \"interfaces\": [{ \"between\": …, \"normal\": … }]",
-    )
-}
-
-fn cause(answer: &Answer, model: &Model, control: &Control) -> Option<Doubt> {
     let about = About { model, late: control.deadline.is_set() && control.deadline.is_over() };
     match answer {
         Answer::Assess(a) => about.verdict(a),
@@ -126,6 +104,14 @@ impl About<'_> {
             return None;
         }
         let b = a.unbalance;
+        // What dry friction leaves open is said first.
+        if !self.late
+            && a.state.is_none()
+            && let Some(edges) =
+                self.edges("with it flattened it falls, with another normal it may stand")
+        {
+            return Some(edges);
+        }
         let state = a.state.as_ref().filter(|s| s.motion == StateMotion::Undecided);
         match (self.late, state) {
             (false, Some(state)) if a.findings().fails.is_empty() => {
@@ -213,6 +199,25 @@ impl About<'_> {
         )
     }
 
+    /// Edges or corners that meet with several normals; what is known all the same.
+    fn edges(&self, known: &str) -> Option<Doubt> {
+        let Model { assembly, interfaces, .. } = self.model;
+        let mut flats = interfaces.list.iter().filter(|f| !f.ways.is_empty());
+        let first = flats.next()?;
+        let [a, b] = [first.a, first.b].map(|i| &assembly.blocks[i].id);
+        let more = match flats.count() {
+            0 => String::new(),
+            n => format!(", as {n} more do"),
+        };
+        Doubt::new(
+            DoubtCause::Edges,
+            format!(
+                "an edge or corner of {a} meets one of {b}{more}, and which of several normals acts there decides: {known}"
+            ),
+            "draw the flat that a real edge has (1 mm), or give the normal: \"interfaces\": [{ \"between\": …, \"normal\": … }]",
+        )
+    }
+
     /// A bracket that did not close.
     fn search(
         &self,
@@ -223,6 +228,17 @@ impl About<'_> {
     ) -> Option<Doubt> {
         if self.late {
             return Self::time(attempts.len());
+        }
+        let ends = || match lower.is_finite() || upper.is_finite() {
+            true => format!(
+                "with it flattened λ is {}, with any normal at most {}",
+                short(lower),
+                short(upper)
+            ),
+            false => "neither is known".to_string(),
+        };
+        if let Some(edges) = self.edges(&ends()) {
+            return Some(edges);
         }
         if let Some(why) = refused {
             return Self::refused(why);

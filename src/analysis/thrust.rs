@@ -250,7 +250,8 @@ pub(super) fn of_part(
     standing: &Forces,
     control: &Control,
 ) -> ThrustEnd {
-    let ask = |model: &Model, standing: &Forces| with_normals(model, at, extreme, standing, control);
+    let ask =
+        |model: &Model, standing: &Forces| with_normals(model, at, extreme, standing, control);
     flats::thrust(model, standing, &ask)
 }
 

@@ -20,8 +20,7 @@ use super::{
     limits::Limits,
     overlap,
     plane::Plane,
-    polygon, rims,
-    spheres,
+    polygon, rims, spheres,
     tally::Tally,
 };
 use crate::assembly::{Assembly, GivenInterface, JointLaw};
@@ -184,8 +183,10 @@ fn name_normals(
             .filter(|c| !c.ways.is_empty())
             .peekable();
         if open.peek().is_none() {
-            return Err(refuse("is of no use: no edges or corners of the two meet with several normals")
-                .hint("remove it, or give the points of the contact as well"));
+            return Err(refuse(
+                "is of no use: no edges or corners of the two meet with several normals",
+            )
+            .hint("remove it, or give the points of the contact as well"));
         }
         for contact in open {
             let n = g.normal * sign;
@@ -358,8 +359,7 @@ fn polyhedra(
                 overlap::depth(p, q, &common, limits).map(|depth| Overlap { depth, closing });
         }
     }
-    meeting.rims =
-        meeting.overlap.is_none() && facing.near.is_none() && !(convex && on_faces);
+    meeting.rims = meeting.overlap.is_none() && facing.near.is_none() && !(convex && on_faces);
     if meeting.overlap.is_none() {
         meeting.near = facing.near.map(|n| Near {
             gap: n.gap,
@@ -463,12 +463,26 @@ impl Covers {
                     continue;
                 }
                 let faces = pair.meeting.contacts.iter().filter(|c| c.kind == ContactKind::Face);
-                covers.0.entry(own).or_default().extend(faces.map(|c| Cover {
-                    other,
-                    frame: if turn { ContactFrame::around(-c.frame.n) } else { c.frame },
-                    // In order around their normal.
-                    points: if turn { c.points.iter().rev().copied().collect() } else { c.points.clone() },
-                    pieces: c.pieces.iter().map(|p| if turn { p.iter().rev().copied().collect() } else { p.clone() }).collect(),
+                covers.0.entry(own).or_default().extend(faces.map(|c| {
+                    Cover {
+                        other,
+                        frame: if turn { ContactFrame::around(-c.frame.n) } else { c.frame },
+                        // In order around their normal.
+                        points: if turn {
+                            c.points.iter().rev().copied().collect()
+                        } else {
+                            c.points.clone()
+                        },
+                        pieces: c
+                            .pieces
+                            .iter()
+                            .map(
+                                |p| {
+                                    if turn { p.iter().rev().copied().collect() } else { p.clone() }
+                                },
+                            )
+                            .collect(),
+                    }
                 }));
             }
         }

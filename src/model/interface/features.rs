@@ -80,7 +80,13 @@ pub(super) fn touches(
 
 impl Touch {
     pub(super) fn point(n: Vector3<f64>, at: Vector3<f64>, gap: f64) -> Self {
-        Self { n, ways: Vec::new(), points: vec![at], patches: 1, gap: Gap { least: gap, mean: gap, greatest: gap } }
+        Self {
+            n,
+            ways: Vec::new(),
+            points: vec![at],
+            patches: 1,
+            gap: Gap { least: gap, mean: gap, greatest: gap },
+        }
     }
 
     fn covers(&self, p: Vector3<f64>, n: &Vector3<f64>, limits: &Limits) -> bool {

@@ -49,8 +49,7 @@ pub(super) fn meet(
     covered: &[impl Fn(&Vector3<f64>, Vector3<f64>) -> bool; 2],
     known: &dyn Fn(Vector3<f64>, &[Vector3<f64>]) -> bool,
 ) -> Rims {
-    let [a, b] =
-        [Side { solid: a, covered: &covered[0] }, Side { solid: b, covered: &covered[1] }];
+    let [a, b] = [Side { solid: a, covered: &covered[0] }, Side { solid: b, covered: &covered[1] }];
     let mut rims = Rims::default();
     let mut add = |points: [Vector3<f64>; 2], gap: f64, [one, other]: [Sheets; 2]| {
         let middle = (points[0] + points[1]) / 2.0;

@@ -730,34 +730,66 @@ fn diagonal_neighbours_in_rounded_files_are_not_joined_either() {
     // Coordinates good to 1e-5: the neighbours overlap in a strip of 2e-5, or miss each other by as
     // much.
     for (dx, dz) in [(-1e-5, 0.0), (1e-5, 0.0), (-1e-5, -1e-5), (-1e-5, 1e-5), (1e-5, -1e-5)] {
-        let found = found(&[
-            block(0.0, 0.0, 0.0, 1.0, 0.5, 1.0),
-            block(1.0 + dx, 0.0, 1.0 + dz, 1.0, 0.5, 1.0),
-        ]);
-        assert!(found.list.is_empty(), "{dx} {dz}: {:?}", found.list);
-        assert_eq!(says(&found, FindingCode::ContactIgnored).len(), 1, "{dx} {dz}");
+        let diagonal =
+            [block(0.0, 0.0, 0.0, 1.0, 0.5, 1.0), block(1.0 + dx, 0.0, 1.0 + dz, 1.0, 0.5, 1.0)];
+        let bond = [
+            diagonal[0].clone(),
+            diagonal[1].clone(),
+            block(1.0, 0.0, 0.0, 1.0, 0.5, 1.0),
+            block(0.0, 0.0, 1.0, 1.0, 0.5, 1.0),
+        ];
+        let found_in_bond = found(&bond);
+        assert_eq!(found_in_bond.list.len(), 4, "{dx} {dz}: {:?}", found_in_bond.list);
+        assert_eq!(says(&found_in_bond, FindingCode::ContactIgnored).len(), 1, "{dx} {dz}");
+        // Alone they stand on each other's edge, and which way they push is open.
+        let alone = found(&diagonal);
+        assert_eq!(alone.list.len(), 1, "{dx} {dz}: {:?}", alone.list);
+        assert_eq!(alone.list[0].ways.len(), 2, "{dx} {dz}: {:?}", alone.list);
     }
 }
 
 #[test]
-fn touches_without_a_normal_are_counted() {
+fn edges_and_corners_that_meet_others_lie_across_the_middle_of_their_normals() {
     let roof = prism(&[(-1.0, 0.0), (1.0, 0.0), (0.0, 1.0)], -2.0, 2.0);
     let cone = tower(&regular(7, 0.5, 0.3), 0.0, 1.0, 0.0);
     let flip = |s: &Shape| s.turned(v(1.0, 0.0, 0.0), PI);
+    let cube = |at: f64| block(at, at, at, 1.0, 1.0, 1.0);
+    let up = v(0.0, 0.0, 1.0);
     let pairs = [
-        [roof.clone(), flip(&roof).moved(v(0.0, 0.0, 2.0))],
-        [cone.clone(), flip(&cone).moved(v(0.0, 0.0, 2.0))],
-        [roof, flip(&cone).moved(v(0.0, 0.0, 2.0))],
-        [block(0.0, 0.0, 0.0, 1.0, 1.0, 1.0), block(1.0, 1.0, 1.0, 1.0, 1.0, 1.0)],
+        ([roof.clone(), flip(&roof).moved(v(0.0, 0.0, 2.0))], 2, 2, up),
+        ([roof, flip(&cone).moved(v(0.0, 0.0, 2.0))], 1, 2, up),
+        ([cube(0.0), cube(1.0)], 1, 3, v(1.0, 1.0, 1.0).normalize()),
     ];
-    for pair in pairs {
+    for (pair, points, ways, n) in pairs {
         let found = found(&pair);
-        assert!(found.list.is_empty(), "{:?}", found.list);
-        assert!(
-            says(&found, FindingCode::ContactIgnored)[0].starts_with("1 pair of blocks touch only"),
-            "{:?}",
-            found.findings
-        );
+        let [one] = &found.list[..] else { panic!("{:?}", found.list) };
+        assert_eq!((one.points.len(), one.ways.len()), (points, ways), "{one:?}");
+        assert!((one.frame.n - n).norm() < 1e-9, "{one:?}");
+        assert_eq!(says(&found, FindingCode::Flattened).len(), 1, "{:?}", found.findings);
+    }
+    // Every facet of one corner and every one of the other.
+    let both = found(&[cone.clone(), flip(&cone).moved(v(0.0, 0.0, 2.0))]);
+    assert!(both.list.len() == 1 && both.list[0].ways.len() >= 7, "{:?}", both.list);
+}
+
+#[test]
+fn a_foot_in_the_corner_of_slab_and_kerb_stands_on_both() {
+    let foot =
+        |dx: f64| prism(&[(dx, 0.0), (0.5 + dx, 0.2), (1.2 + dx, 1.2), (0.2 + dx, 0.4)], 0.2, 0.8);
+    for dx in [0.0, 1e-6, 1e-5, 1e-4] {
+        // A kerb on the slab, and one beside it, whose face goes on below the slab's.
+        for (from, kerb) in [
+            (-1.0, block(-0.5, 0.0, 0.0, 0.5, 1.0, 0.3)),
+            (0.0, block(-0.5, 0.0, -0.5, 0.5, 1.0, 0.8)),
+        ] {
+            let slab = block(from, 0.0, -0.5, 4.0, 1.0, 0.5);
+            let found = found(&[slab, kerb, foot(dx)]);
+            let on_foot: Vec<_> = found.list.iter().filter(|f| f.b == 2).collect();
+            assert_eq!(on_foot.len(), 2, "{dx}: {:?}", found.list);
+            assert!(on_foot.iter().all(|f| f.ways.is_empty() && f.kind == ContactKind::Edge));
+            assert!((on_foot[0].frame.n - v(0.0, 0.0, 1.0)).norm() < 1e-9);
+            assert!((on_foot[1].frame.n - v(1.0, 0.0, 0.0)).norm() < 1e-9);
+        }
     }
 }
 

@@ -333,12 +333,13 @@ fn flattened(model: &Model, certificate: &Certificate, claimed: bool) -> Vec<[St
         return Vec::new();
     }
     let forces = certificate.read(model).map(|read| read.0).unwrap_or_default();
-    let pressed = |k: usize| {
-        forces.get(k).is_some_and(|f| f.iter().any(|w| w.force != Vector3::zeros()))
-    };
-    let flats = interfaces.list.iter().enumerate().filter(|(k, f)| {
-        !f.ways.is_empty() && (!claimed || pressed(*k))
-    });
+    let pressed =
+        |k: usize| forces.get(k).is_some_and(|f| f.iter().any(|w| w.force != Vector3::zeros()));
+    let flats = interfaces
+        .list
+        .iter()
+        .enumerate()
+        .filter(|(k, f)| !f.ways.is_empty() && (!claimed || pressed(*k)));
     flats.map(|(_, f)| [f.a, f.b].map(|i| assembly.blocks[i].id.clone())).collect()
 }
 

@@ -248,7 +248,7 @@ fn scenes_that_mean_nothing_are_refused_with_place_and_remedy() {
         ),
         (
             r#""interfaces": [{ "between": ["base", "top"], "points": [] }],"#,
-            "s.json:6:56: interfaces[0].points: an interface needs at least one point",
+            "s.json:6:16: interfaces[0]: an interface needs at least one point, or a normal; hint: \"normal\" alone names the direction across which edges or corners of the two meet",
         ),
         (
             r#""interfaces": [{ "between": ["base", "top"], "points": [[0,0,0.5]] }],"#,
