@@ -3,12 +3,14 @@
 //!
 //! * [`soak`]: verdicts held against their certificates, against omissions and, of a sample, against
 //!   simulations;
+//! * [`edges`]: blocks that meet at edges and corners, held against the same with flats there;
 //! * [`cross`]: each scene asked in several ways that must give one answer;
 //! * [`forge`]: results changed into false ones, all of which must be refused.
 
 #![forbid(unsafe_code)]
 
 pub mod cross;
+pub mod edges;
 pub mod forge;
 mod random;
 pub mod soak;

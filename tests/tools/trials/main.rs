@@ -6,7 +6,7 @@ use report::{json, text::Layout};
 use serde::Serialize;
 use serde_json::Value;
 use std::{path::PathBuf, process::ExitCode};
-use trials::{cross, forge, soak};
+use trials::{cross, edges, forge, soak};
 
 /// Trials of the whole on random scenes; exit code 1 where anything is wrong.
 #[derive(Parser)]
@@ -23,6 +23,8 @@ enum Trial {
     /// Every scene in several ways that must give one answer: with strangers beside it, at the
     /// coordinates of a survey, under loads up to its load factor and beyond.
     Cross(Options),
+    /// Blocks that meet at edges and corners, each scene beside the same with flats there.
+    Edges(Options),
     /// The results of every scene changed into false claims, some two hundred a scene.
     Forge(Options),
 }
@@ -75,7 +77,7 @@ impl Options {
 
 fn main() -> anyhow::Result<ExitCode> {
     let Cli { trial } = Cli::parse();
-    let (Trial::Soak(o) | Trial::Cross(o) | Trial::Forge(o)) = &trial;
+    let (Trial::Soak(o) | Trial::Cross(o) | Trial::Edges(o) | Trial::Forge(o)) = &trial;
     if o.dump.as_ref().is_some_and(|folder| !folder.is_dir()) {
         bail!("--dump: there is no such folder");
     }
@@ -84,6 +86,7 @@ fn main() -> anyhow::Result<ExitCode> {
     if let Some(index) = o.only {
         let scene = match trial {
             Trial::Soak(_) => soak::scene(seed, index)?.0,
+            Trial::Edges(_) => edges::scene(seed, index)?.0,
             _ => cross::scene(seed, index)?.0,
         };
         println!("{}", json::text(&scene.to_value()?));
@@ -103,6 +106,12 @@ fn main() -> anyhow::Result<ExitCode> {
             let scenes = cross::scenes(seed, &list).into_iter();
             let files = scenes.filter_map(|(name, scene)| Some((name, scene.to_value().ok()?)));
             o.tell(&list, wrong, files, cross::text(&list, seed, verbose, layout))
+        }
+        Trial::Edges(_) => {
+            let kept = keep.map(|path| edges::keep(path, seed)).transpose()?;
+            let list = edges::run(seed, count, kept.as_ref(), |_| {})?;
+            let wrong = list.iter().any(edges::Edged::is_wrong);
+            o.tell(&list, wrong, [], edges::text(&list, seed, verbose, layout))
         }
         Trial::Forge(_) => {
             let kept = keep.map(|path| forge::keep(path, seed)).transpose()?;
