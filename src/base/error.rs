@@ -156,8 +156,12 @@ pub enum FindingCode {
     GapClosed,
     /// Faces that nearly touch were left apart.
     NearMiss,
+    /// Most blocks touch nothing: their joints are open.
+    Unjoined,
     /// Blocks overlap.
     Overlap,
+    /// A block is drawn twice.
+    Twice,
     /// Contacts between other blocks' faces, or below the least area, were ignored.
     ContactIgnored,
     /// Edges or corners that meet others, with several normals, stand for small flats.
@@ -190,7 +194,7 @@ impl FindingCode {
     /// Whether the scene is then likely not the one that is meant: its numbers, axes or loads look
     /// like mistakes. Such findings reach everybody who asks.
     pub fn is_implausible(self) -> bool {
-        matches!(self, Self::Units | Self::Axes | Self::Loads)
+        matches!(self, Self::Units | Self::Axes | Self::Loads | Self::Twice)
     }
 
     /// Whether it is likely a mistake in the scene, and not only worth knowing.
@@ -201,6 +205,8 @@ impl FindingCode {
             | Self::Loads
             | Self::NearMiss
             | Self::Overlap
+            | Self::Twice
+            | Self::Unjoined
             | Self::Floating => true,
             Self::Orientation | Self::Missing | Self::WithoutEffect => true,
             Self::Assumed

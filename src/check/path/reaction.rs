@@ -6,7 +6,7 @@
 //! [`thrust`](crate::verdict::thrust), of which this is the case of any movement). A support that
 //! yields carries the least there is.
 
-use crate::verdict::{Forces, Rate, certificate};
+use crate::verdict::{Forces, Rate, certificate, in_every_way};
 use base::tolerance;
 use model::{assembly::Wrench, interface::Model};
 
@@ -49,6 +49,9 @@ pub fn on_support(model: &Model, forces: &Forces, support: usize) -> Wrench {
 /// The power of forces on supports that move at these rates, and the bracket of its least value;
 /// `rates` are those of all blocks, supports among them.
 pub fn least(model: &Model, forces: &Forces, rates: &[Rate]) -> Least {
+    if let Some((wide, forces)) = in_every_way(model, forces) {
+        return least(&wide, &forces, rates);
+    }
     let assembly = &model.assembly;
     let supports = || (0..rates.len()).filter(|&i| assembly.blocks[i].support);
     let value: f64 =

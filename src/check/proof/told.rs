@@ -78,6 +78,10 @@ pub struct Told {
     /// of the answer act; all where it is undecided.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub flattened: Vec<[String; 2]>,
+    /// Of a scene that stands: blocks that touch others along one line or at one point below them,
+    /// and so stand only as long as nothing pushes them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub in_balance: Vec<String>,
     /// What is to be known about the scene.
     #[serde(rename = "warnings", default, skip_serializing_if = "Vec::is_empty")]
     pub scene_warnings: Vec<Finding>,
@@ -136,6 +140,7 @@ impl Told {
             members: Vec::new(),
             left_out_contacts: None,
             flattened: Vec::new(),
+            in_balance: Vec::new(),
             scene_warnings: Vec::new(),
             counts: Counts::of(model),
         }

@@ -95,7 +95,9 @@ pub fn detect_until(
         if let Some(near) = meeting.near {
             apart.push((near.closing, limits, a, b));
         }
-        if let Some(overlap) = meeting.overlap {
+        if meeting.twice {
+            tally.twice(a, b);
+        } else if let Some(overlap) = meeting.overlap {
             tally.overlap(overlap.depth, overlap.closing, &limits, a, b);
         }
         if meeting.idle {
@@ -157,6 +159,7 @@ pub fn detect_until(
             .then(p.z.total_cmp(&q.z))
     });
     interfaces.left_out = tally.left_out(assembly);
+    interfaces.apart = tally.apart();
     interfaces.findings = tally.findings(assembly);
     let told = interfaces.join(assembly)?;
     interfaces.findings.extend(told);
@@ -251,6 +254,8 @@ struct Meeting {
     contacts: Vec<Contact>,
     near: Option<Near>,
     overlap: Option<Overlap>,
+    /// Whether one is the other once more.
+    twice: bool,
     small: Vec<f64>,
     /// Whether rims may meet.
     rims: bool,
@@ -360,6 +365,7 @@ fn polyhedra(
         }
     }
     meeting.rims = meeting.overlap.is_none() && facing.near.is_none() && !(convex && on_faces);
+    meeting.twice = meeting.overlap.is_some() && overlap::is_twice(p, q, limits);
     if meeting.overlap.is_none() {
         meeting.near = facing.near.map(|n| Near {
             gap: n.gap,

@@ -4,6 +4,7 @@
 //! forces **on b**; compression is `f_n ≥ 0`; the frame `(t1, t2, n)` is right-handed.
 
 mod axes;
+mod balance;
 mod body;
 mod detect;
 mod detect_candidates;
@@ -27,6 +28,7 @@ mod tally;
 mod tests;
 
 pub use axes::on_its_side;
+pub use balance::in_balance;
 pub use detect::{detect, detect_until};
 pub use left_out::LeftOut;
 pub use model::{Model, Timings, closed, prepare, prepare_timed, prepare_until};
@@ -54,6 +56,8 @@ pub struct Interfaces {
     pub findings: Vec<Finding>,
     /// The near misses and overlaps in numbers, where there are any.
     pub left_out: Option<LeftOut>,
+    /// Which pairs these are.
+    pub apart: Vec<[usize; 2]>,
     /// Ties, struts, tendons, joints of strips, dowels, soil and grips.
     pub members: Vec<Member>,
 }

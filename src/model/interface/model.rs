@@ -1,6 +1,6 @@
 //! Scene → assembly → interfaces, timed.
 
-use super::{ContactFrame, Interface, Interfaces, axes, detect, detect_until, floating};
+use super::{ContactFrame, Interface, Interfaces, axes, detect, detect_until, floating, tally};
 use crate::assembly::{self, AppliedForce, Assembly, Member};
 use base::error::{Finding, FindingCode, InputError};
 use nalgebra::Vector3;
@@ -45,8 +45,9 @@ impl Model {
     /// An assembly with its interfaces as they were detected; adds what they say together.
     pub fn detected(assembly: Assembly, interfaces: Interfaces) -> Self {
         let mut model = Self::new(assembly, interfaces);
-        let said: Vec<Finding> = unheld(&model)
+        let said: Vec<Finding> = joints_open(&model)
             .into_iter()
+            .chain(unheld(&model))
             .chain(without_effect(&model.interfaces))
             .chain(axes::mistake(&model))
             .collect();
@@ -111,6 +112,7 @@ impl Model {
             support_pairs: self.interfaces.support_pairs,
             findings: self.interfaces.findings.clone(),
             left_out: self.interfaces.left_out,
+            apart: self.interfaces.apart.clone(),
         };
         Self { timings: self.timings, ..Self::new(assembly, interfaces) }
     }
@@ -215,6 +217,56 @@ pub fn closed(model: &Model) -> Result<Option<Model>, InputError> {
     let assembly = Assembly { contact, ..model.assembly.clone() };
     let interfaces = detect(&assembly)?;
     Ok(Some(Model::detected(assembly, interfaces)))
+}
+
+/// Joints drawn with their mortar, or with the gap of a saw: how wide such gaps are at most, × the
+/// size of the smaller block. Larger: blocks across an opening are neighbours. Smaller: mortar of a
+/// tenth of a brick is not known for what it is.
+const WIDEST_JOINT: f64 = 0.1;
+/// Scenes of more blocks are not searched for such joints.
+const MOST_SEARCHED: usize = 20_000;
+
+/// Says how wide the gaps are where most free blocks touch nothing and their neighbours stand off by
+/// as much as each other.
+fn joints_open(model: &Model) -> Option<Finding> {
+    let Model { assembly, interfaces, .. } = model;
+    let blocks = &assembly.blocks;
+    let mut alone: Vec<bool> = blocks.iter().map(|b| !b.support && !b.solid.is_round()).collect();
+    let free = alone.iter().filter(|a| **a).count();
+    let ends = interfaces.members.iter().flat_map(|m| m.action.ends()).flatten();
+    interfaces.list.iter().flat_map(|f| [f.a, f.b]).chain(ends).for_each(|i| alone[i] = false);
+    let loose = alone.iter().filter(|a| **a).count();
+    if 2 * loose <= free || blocks.len() > MOST_SEARCHED {
+        return None;
+    }
+    let contact = scene::ContactSpec { gap: WIDEST_JOINT, ..assembly.contact.clone() };
+    let wide = detect(&Assembly { contact, ..assembly.clone() }).ok()?;
+    let size = |i: usize| if blocks[i].support { f64::INFINITY } else { blocks[i].size };
+    // Gaps in m and × size, the narrowest first.
+    let mut gaps: Vec<(f64, f64)> = wide
+        .list
+        .iter()
+        .filter(|f| f.area > 0.0 && f.gap > 0.0 && (alone[f.a] || alone[f.b]))
+        .map(|f| (f.gap, f.gap / size(f.a).min(size(f.b))))
+        .collect();
+    gaps.sort_by(|x, y| x.0.total_cmp(&y.0));
+    let median = gaps.get(gaps.len() / 2)?.0;
+    gaps.retain(|g| (0.5 * median..=1.5 * median).contains(&g.0));
+    if 2 * gaps.len() < loose {
+        return None;
+    }
+    let (least, greatest) = (gaps[0].0, gaps[gaps.len() - 1].0);
+    let closes = tally::round_up(gaps.iter().map(|g| g.1).fold(0.0, f64::max));
+    let width = match tally::short(least) == tally::short(greatest) {
+        true => tally::short(least),
+        false => format!("{} to {}", tally::short(least), tally::short(greatest)),
+    };
+    let text = format!(
+        "{loose} of {free} free blocks touch nothing, and {} pairs of neighbours are {width} m apart, as joints are that are drawn with their mortar: \"contact\": {{ \"gap\": {} }} (or --gap, on import) closes them",
+        gaps.len(),
+        tally::short(closes)
+    );
+    Some(Finding::new(FindingCode::Unjoined, text))
 }
 
 /// Says which free blocks nothing holds.

@@ -31,6 +31,15 @@ pub(super) fn depth(a: &Solidity, b: &Solidity, common: &Bounds, limits: &Limits
     (depth > limits.gap).then_some(depth)
 }
 
+/// Whether every corner of each lies at one of the other: the same block, drawn twice.
+pub(super) fn is_twice(a: &Solidity, b: &Solidity, limits: &Limits) -> bool {
+    let (a, b) = (&a.polyhedron.vertices, &b.polyhedron.vertices);
+    let within = |one: &[Vector3<f64>], other: &[Vector3<f64>]| {
+        one.iter().all(|v| other.iter().any(|w| (v - w).norm() <= limits.gap))
+    };
+    within(a, b) && within(b, a)
+}
+
 /// Least overlap over all separating directions; `None` as soon as one keeps the blocks apart
 /// within the gap.
 fn convex_depth(a: &Solidity, b: &Solidity, limits: &Limits) -> Option<f64> {

@@ -23,6 +23,7 @@ pub(super) struct Tally {
     without_normal: Vec<(usize, usize)>,
     flattened: Vec<(usize, usize)>,
     held_apart: Vec<(usize, usize)>,
+    twice: Vec<(usize, usize)>,
 }
 
 /// What keeps two blocks from touching.
@@ -66,6 +67,10 @@ impl Tally {
         if gap.least < -limits.noise {
             self.pressed.add(-gap.least);
         }
+    }
+
+    pub fn twice(&mut self, a: usize, b: usize) {
+        self.twice.push((a, b));
     }
 
     pub fn flattened(&mut self, a: usize, b: usize) {
@@ -122,9 +127,16 @@ impl Tally {
         })
     }
 
+    /// The pairs that these are.
+    pub fn apart(&self) -> Vec<[usize; 2]> {
+        let near = self.near.iter().map(|n| [n.1, n.2]);
+        near.chain(self.overlaps.iter().map(|o| [o.2, o.3])).collect()
+    }
+
     /// One finding per kind of thing.
     pub fn findings(mut self, assembly: &Assembly) -> Vec<Finding> {
         let all = [
+            self.drawn_twice(assembly),
             self.closed_gaps(assembly),
             self.near_misses(assembly),
             self.neighbours_apart(assembly),
@@ -132,9 +144,23 @@ impl Tally {
             self.without_a_normal(assembly),
             self.on_flats(assembly),
             self.small_areas(assembly),
-            self.apart(assembly),
+            self.kept_apart(assembly),
         ];
         all.into_iter().flatten().collect()
+    }
+
+    /// Blocks in the place of others.
+    fn drawn_twice(&self, assembly: &Assembly) -> Option<Finding> {
+        let &(a, b) = self.twice.first()?;
+        let (one, other) = (&assembly.blocks[a].id, &assembly.blocks[b].id);
+        let more = match self.twice.len() {
+            1 => String::new(),
+            n => format!(" (and {} more alike)", n - 1),
+        };
+        let text = format!(
+            "Block {other:?} is block {one:?} once more, corner for corner{more}: both weigh, and they do not touch each other; remove one"
+        );
+        Some(Finding::new(FindingCode::Twice, text))
     }
 
     /// Gaps and overlaps that were closed.
@@ -286,7 +312,7 @@ impl Tally {
     }
 
     /// Blocks that a thin one keeps apart.
-    fn apart(&self, assembly: &Assembly) -> Option<Finding> {
+    fn kept_apart(&self, assembly: &Assembly) -> Option<Finding> {
         let &(a, b) = self.held_apart.first()?;
         let tolerance = short(assembly.contact.gap);
         let text = format!(
@@ -332,7 +358,7 @@ fn pairs(count: usize) -> String {
 }
 
 /// Three significant digits.
-fn short(x: f64) -> String {
+pub(super) fn short(x: f64) -> String {
     if x == 0.0 || (1e-3..1e4).contains(&x.abs()) {
         let digits =
             if x == 0.0 { 0 } else { (2 - x.abs().log10().floor() as i32).max(0) as usize };
@@ -353,7 +379,7 @@ fn short(x: f64) -> String {
 }
 
 /// A little above `x`, to two digits: a tolerance that includes it.
-fn round_up(x: f64) -> f64 {
+pub(super) fn round_up(x: f64) -> f64 {
     let unit = 10f64.powf(x.log10().floor() - 1.0);
     let up = (x / unit * 1.000001).ceil() * unit;
     // As it is read where somebody takes it over.

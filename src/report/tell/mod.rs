@@ -29,6 +29,7 @@ use crate::{
         page::{Page, Role},
     },
 };
+use base::error::FindingCode;
 use check::{proof::result::ResultFile, question::QuestionKind};
 use telling::{Telling, look};
 
@@ -77,8 +78,22 @@ pub(crate) fn title(page: &mut Page, file: &ResultFile) {
     {
         (text, role) = (format!("{text}; {words}"), Role::Bad);
     }
+    // Then that something falls is no answer.
+    if let Some(open) = file.scene_warnings.iter().find(|f| f.code == FindingCode::Unjoined) {
+        (text, role) = (open.text.clone(), Role::Bad);
+    }
     if let Some(words) = flattened(file) {
         text = format!("{text}{words}");
+    }
+    if let Some(id) = file.in_balance.first() {
+        let more = match file.in_balance.len() {
+            1 => "stands".to_string(),
+            n => format!("and {} more stand", n - 1),
+        };
+        text = format!(
+            "{text}, but only in balance: {id} {more} on an edge or a point and bears no push"
+        );
+        role = if role == Role::Good { Role::Unsure } else { role };
     }
     if let Some(words) = left_out(file) {
         role = if role == Role::Good { Role::Unsure } else { role };

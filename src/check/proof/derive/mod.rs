@@ -36,7 +36,7 @@ use crate::{
     },
 };
 use base::error::Finding;
-use model::interface::Model;
+use model::interface::{self, Model};
 use nalgebra::Vector3;
 use scene::Scene;
 
@@ -119,6 +119,9 @@ pub fn derive(
     let mut told = own.told(&evidence)?;
     own.left_out(&mut told, closed.as_ref())?;
     told.flattened = flattened(model, &told.certificate, own.check.claimed);
+    if matches!(&told.answer, Answer::Verdict(v) if v.verdict == Verdict::Stable) {
+        told.in_balance = model.ids(&interface::in_balance(model));
+    }
     told.scene_warnings = model.own_findings().cloned().collect();
     let check = own.check;
     let name = scene.name.clone();

@@ -12,6 +12,7 @@ use crate::{
     verdict::{
         Verdict, certificate,
         claim::{self, Claim, Findings},
+        in_every_way,
     },
 };
 use base::tolerance;
@@ -107,6 +108,8 @@ fn unbalance(model: &Model, proven: &Proven, verdict: Verdict) -> Bracket {
         return Bracket { lower: 0.0, upper };
     }
     let rates = &certificate::at_unit_speed(&model.assembly, rates)[..];
+    let wide = in_every_way(model, forces);
+    let (model, forces) = wide.as_ref().map_or((model, forces), |(model, forces)| (model, forces));
     let k = match claim::moving(model, forces, rates) {
         Some((part, own, rates)) => certificate::kinematics(&part.model, &rates, &own),
         None => certificate::kinematics(model, rates, forces),

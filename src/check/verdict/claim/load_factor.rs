@@ -12,7 +12,7 @@ use crate::verdict::{
         motion::{self, MotionProof},
     },
     findings::Findings,
-    law,
+    in_every_way, law,
 };
 use base::tolerance;
 use model::{assembly::Assembly, interface::Model};
@@ -205,6 +205,9 @@ pub fn ends(
     rates: &[Rate],
     [lower, upper]: [Option<f64>; 2],
 ) -> [Option<f64>; 2] {
+    if let Some((wide, forces)) = in_every_way(model, forces) {
+        return ends(&wide, &forces, rates, [lower, upper]);
+    }
     let lower = lower.filter(|lower| {
         let mut f = Findings::default();
         let s = certificate::statics(model, forces, *lower);

@@ -142,8 +142,8 @@ fn ask(seed: u64, index: usize, edged: &mut Edged) {
         }
         let flat = known(&flat);
         edged.flats.push(flat);
-        edged.wrong = edged.wrong.take().or_else(|| contradiction(&own, &flat, width));
     }
+    edged.wrong = contradiction(&own, &edged.flats);
 }
 
 fn known(model: &Model) -> Known {
@@ -164,19 +164,27 @@ fn known(model: &Model) -> Known {
     }
 }
 
-/// What is said of a scene that cannot be, if `flat` is true of it with flats.
-fn contradiction(own: &Known, flat: &Known, width: f64) -> Option<String> {
-    let slack = |v: f64| SLOPE * width * (1.0 + v.abs()) + 1e-6;
-    let at = flat.ends[0].filter(|_| flat.outcome == Outcome::Found)?;
+/// What is said of a scene that cannot be, if it goes with flats as these do.
+fn contradiction(own: &Known, flats: &[Known]) -> Option<String> {
+    let found = |k: &Known| k.ends[0].filter(|_| k.outcome == Outcome::Found);
+    let [_, wider, at] = flats.iter().map(found).collect::<Option<Vec<_>>>()?[..] else {
+        return None;
+    };
+    let width = WIDTHS[2];
     let is = |text: String| Some(format!("{text}, with flats of {width:.0e} m it is {at:.6}"));
+    // As near as the narrowest flats allow, or ten times as near as wider ones.
+    let apart = |v: f64| {
+        let [off, before] = [at - v, wider - v].map(f64::abs);
+        off > SLOPE * width * (1.0 + v.abs()) + 1e-6 && off > 0.2 * before
+    };
     match (own.outcome, own.ends) {
         (Outcome::Impossible, _) => is("no λ is possible".into()),
         (Outcome::Unbounded, _) => is("λ has no limit".into()),
-        (_, [_, Some(upper)]) if at > upper + slack(upper) => {
+        (_, [_, Some(upper)]) if at > upper && apart(upper) => {
             is(format!("λ is at most {upper:.6}"))
         }
         // Across the middle of the normals: what the flats go to.
-        (_, [Some(lower), _]) if (at - lower).abs() > slack(lower) => {
+        (_, [Some(lower), _]) if apart(lower) => {
             is(format!("λ is {lower:.6} with edges flattened"))
         }
         _ => None,
@@ -286,11 +294,9 @@ mod tests {
             ends: [Some(lower), Some(upper)],
             ..flat
         };
-        assert_eq!(contradiction(&own(0.5, 0.7), &flat, 1e-5), None);
-        assert!(contradiction(&own(0.3, 0.4), &flat, 1e-5).is_some());
-        assert!(contradiction(&own(0.6, 0.7), &flat, 1e-5).is_some());
-        assert!(
-            contradiction(&Known { outcome: Outcome::Impossible, ..flat }, &flat, 1e-5).is_some()
-        );
+        let wrong = |own: Known| contradiction(&own, &[flat; 3]).is_some();
+        assert!(!wrong(own(0.5, 0.7)));
+        assert!(wrong(own(0.3, 0.4)) && wrong(own(0.6, 0.7)) && wrong(own(0.4, 0.6)));
+        assert!(wrong(Known { outcome: Outcome::Impossible, ..flat }));
     }
 }

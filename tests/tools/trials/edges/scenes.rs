@@ -62,7 +62,8 @@ fn mirrored(polygon: [P2; 4]) -> [P2; 4] {
 /// Two planks, not alike, whose upper inner edges meet.
 fn a_frame(random: &mut Random) -> Vec<BlockSpec> {
     let top = P2::new(0.0, 1.0);
-    let mut leg = || plank(P2::new(-random.between(0.2, 0.9), 0.0), top, random.decades(-2.0, -0.7));
+    let mut leg =
+        || plank(P2::new(-random.between(0.2, 0.9), 0.0), top, random.decades(-2.0, -0.7));
     let (left, right) = (leg(), mirrored(leg()));
     vec![floor(1.0), prism("left", &left, 0.5, false), prism("right", &right, 0.5, false)]
 }
