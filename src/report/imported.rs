@@ -8,7 +8,7 @@ use base::{
     number::count,
 };
 use model::{
-    assembly::{Polyhedron, ShapeError},
+    assembly::{Mend, Polyhedron, ShapeError},
     interface::{Model, on_its_side, prepare},
 };
 use nalgebra::Vector3;
@@ -65,7 +65,16 @@ fn solid(block: &BlockSpec) -> Result<f64, ShapeError> {
         Shape::Clump { spheres } => return Ok(spheres.iter().map(|s| ball(s.radius)).sum()),
         _ => return Ok(0.0),
     };
-    let (solid, _) = Polyhedron::from_faces(vertices.iter().map(|&v| v.into()).collect(), faces)?;
+    let corners = vertices.iter().map(|&v| v.into()).collect();
+    let (solid, mends) = match block.support {
+        // Which side the body lies on is no matter here.
+        true => Polyhedron::of_support(corners, faces, Vector3::zeros())?,
+        false => Polyhedron::from_faces(corners, faces)?,
+    };
+    // A sheet has none.
+    if mends.iter().any(|m| matches!(m, Mend::Backed { .. })) {
+        return Ok(0.0);
+    }
     Ok(solid.mass_properties().volume)
 }
 

@@ -12,7 +12,7 @@
 
 use super::{
     ContactFrame, ContactKind, Interface, Interfaces,
-    body::{BoundedBlock, Form, Solidity},
+    body::{BoundedBlock, Bounds, Form, Solidity},
     detect_candidates::candidates,
     faces::{self, Closing, FaceContact, Gap},
     features::{self, Touch},
@@ -359,9 +359,11 @@ fn polyhedra(
         if (!convex || meeting.contacts.is_empty())
             && (0..3).all(|k| common.hi[k] - common.lo[k] > limits.gap)
         {
-            let closing = facing.near.map(|n| n.closing);
-            meeting.overlap =
-                overlap::depth(p, q, &common, limits).map(|depth| Overlap { depth, closing });
+            let near = facing.near.map(|n| n.closing);
+            meeting.overlap = overlap::depth(p, q, &common, limits).map(|depth| {
+                let closing = near.or_else(|| closed_by(p, q, depth, &window(limits.near), limits));
+                Overlap { depth, closing }
+            });
         }
     }
     meeting.rims = meeting.overlap.is_none() && facing.near.is_none() && !(convex && on_faces);
@@ -375,6 +377,22 @@ fn polyhedra(
     }
     meeting.contacts.extend(facing.contacts.iter().map(|f| of_face(f, limits)));
     meeting
+}
+
+/// The tolerance with which two overlapping blocks meet face to face; none where no such one is near.
+fn closed_by(
+    a: &Solidity,
+    b: &Solidity,
+    depth: f64,
+    window: &Bounds,
+    limits: &Limits,
+) -> Option<Closing> {
+    if depth > limits.near {
+        return None;
+    }
+    let wider = Limits { gap: depth * (1.0 + 1e-9), ..*limits };
+    let closing = Closing { gap: depth, lean: 0.0 };
+    (!faces::facing(a, b, window, &wider).contacts.is_empty()).then_some(closing)
 }
 
 fn of_touch(touch: Touch, sign: f64) -> Contact {

@@ -69,6 +69,11 @@ pub enum Mend {
         /// Its largest distance from its mean plane, m.
         warp: f64,
     },
+    /// The surface of a support was flat or open and got a body behind it.
+    Backed {
+        /// How thick, m.
+        thickness: f64,
+    },
 }
 
 impl Mend {
@@ -138,6 +143,11 @@ impl fmt::Display for Mend {
             Mend::Bodies { bodies } => {
                 write!(f, "it consists of {bodies} separate bodies, which move as one block")
             }
+            Mend::Backed { thickness } => write!(
+                f,
+                "its surface encloses nothing, and as it is held it was given a body of {} m on the side away from the free blocks",
+                short(*thickness)
+            ),
             Mend::Warped { faces, face, warp } => write!(
                 f,
                 "{} not plane and treated as plane where blocks touch (the worst is face {face}, whose corners lie up to {warp:.3e} m off its mean plane)",
@@ -352,7 +362,7 @@ impl ShapeError {
                 "the mesh closes on itself with a twist; model the solid anew or export it from a solid modeller"
             }
             Self::Flat { .. } => {
-                "a block needs a volume: give it thickness, and check that the unit is the same along all axes"
+                "a block needs a volume: give it thickness, and check that the unit is the same along all axes; a support may be a face (\"support\": true, or --support on import)"
             }
             Self::Nested { .. } => {
                 "wind the faces of a cavity so that they face into the cavity, or leave the inner surface out"

@@ -6,6 +6,7 @@
 //! work in coordinates about the centre of the bounding box, so that a block far from the origin
 //! loses no digits.
 
+mod back;
 mod check;
 mod convex;
 mod double;

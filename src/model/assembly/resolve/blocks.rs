@@ -11,7 +11,8 @@ use base::{
     limits,
     tolerance::DEFAULT_DENSITY,
 };
-use scene::{BlockSpec, Material, Scene, generate, suggest};
+use nalgebra::Vector3;
+use scene::{BlockSpec, Material, Scene, Shape, generate, suggest};
 use std::collections::HashMap;
 
 /// Whether a block with this path was made by a template.
@@ -35,6 +36,7 @@ pub(super) fn resolve(
     }
     let mut blocks = Vec::with_capacity(scene.blocks.len());
     let mut mended = Mended::default();
+    let free = middle_of_free(scene);
     // Per block: its density, where somebody chose one.
     let mut chosen = Vec::with_capacity(scene.blocks.len());
     let mut add = |spec: &BlockSpec, place: &Origin| -> Result<(), InputError> {
@@ -42,7 +44,7 @@ pub(super) fn resolve(
             let text = format!("the time was up after {} blocks had been resolved", blocks.len());
             return Err(InputError::at(JsonPath::root(), text).hint("allow more time"));
         }
-        let (block, density) = block(scene, spec, place, &mut mended)?;
+        let (block, density) = block(scene, spec, place, free, &mut mended)?;
         blocks.push(block);
         chosen.push(density);
         Ok(())
@@ -66,11 +68,27 @@ pub(super) fn resolve(
     Ok((blocks, findings))
 }
 
+/// Where the free blocks are, more or less; above everything where none is given by itself.
+fn middle_of_free(scene: &Scene) -> Vector3<f64> {
+    let middle = |spec: &BlockSpec| {
+        let corners: &[[f64; 3]] = match &spec.shape {
+            Shape::Polyhedron { vertices, .. } | Shape::Mesh { vertices, .. } => vertices,
+            _ => &[],
+        };
+        let sum = corners.iter().map(|&v| Vector3::from(v)).sum::<Vector3<f64>>();
+        let frame = Frame::new(spec, &Origin { path: JsonPath::root(), generated: None }).ok()?;
+        Some(frame.apply(sum / corners.len().max(1) as f64))
+    };
+    let free = scene.blocks.iter().filter(|b| !b.support).filter_map(middle);
+    let (count, sum) = free.fold((0, Vector3::zeros()), |(n, sum), v| (n + 1, sum + v));
+    match count {
+        0 => -Vector3::from(scene.gravity) * 1e6,
+        n => sum / f64::from(n),
+    }
+}
+
 /// A point of a block's own frame, in scene coordinates.
-pub(super) fn in_scene(
-    spec: &BlockSpec,
-    point: nalgebra::Vector3<f64>,
-) -> Result<nalgebra::Vector3<f64>, InputError> {
+pub(super) fn in_scene(spec: &BlockSpec, point: Vector3<f64>) -> Result<Vector3<f64>, InputError> {
     let place = Origin { path: JsonPath::root(), generated: Some(spec.id.clone()) };
     Ok(Frame::new(spec, &place)?.apply(point))
 }
@@ -95,11 +113,12 @@ fn block(
     scene: &Scene,
     spec: &BlockSpec,
     place: &Origin,
+    free: Vector3<f64>,
     mended: &mut Mended,
 ) -> Result<(Block, Option<f64>), InputError> {
     let root = JsonPath::root();
     let frame = Frame::new(spec, place)?;
-    let body = shape::body(spec, &frame, place)?;
+    let body = shape::body(spec, &frame, place, free)?;
     for mend in &body.mended {
         mended.add(mend, &spec.id);
     }
@@ -227,10 +246,23 @@ fn assumed_density(scene: &Scene, blocks: &[Block], chosen: &[Option<f64>]) -> O
 struct Mended {
     order: Vec<String>,
     blocks: HashMap<String, (FindingCode, String, usize)>,
+    /// Blocks with faces that are not plane: how many, with how many such faces; the worst face, its
+    /// warp and its block.
+    warped: Option<(usize, usize, (usize, f64, String))>,
 }
 
 impl Mended {
     fn add(&mut self, mend: &Mend, id: &str) {
+        if let Mend::Warped { faces, face, warp } = *mend {
+            let here = (face, warp, id.to_owned());
+            self.warped = Some(match self.warped.take() {
+                None => (1, faces, here),
+                Some((blocks, all, worst)) => {
+                    (blocks + 1, all + faces, if warp > worst.1 { here } else { worst })
+                }
+            });
+            return;
+        }
         let text = mend.to_string();
         if let Some((.., count)) = self.blocks.get_mut(&text) {
             *count += 1;
@@ -247,6 +279,13 @@ impl Mended {
                 if *count > 1 { format!(" (and {} more)", count - 1) } else { String::new() };
             Finding::new(*code, format!("Block {id:?}{others}: {text}."))
         };
-        self.order.iter().map(tell).collect()
+        let warped = self.warped.as_ref().map(|(blocks, faces, (face, warp, id))| {
+            let text = match blocks {
+                1 => format!("Block {id:?}: {}.", Mend::Warped { faces: *faces, face: *face, warp: *warp }),
+                n => format!("{faces} faces of {n} blocks are not plane and treated as plane where blocks touch (the worst is face {face} of block {id:?}, whose corners lie up to {warp:.3e} m off its mean plane)."),
+            };
+            Finding::new(FindingCode::Warped, text)
+        });
+        self.order.iter().map(tell).chain(warped).collect()
     }
 }

@@ -46,11 +46,12 @@ pub(super) struct Geometry {
     pub(super) mended: Vec<Mend>,
 }
 
-/// The geometry of a block in scene coordinates.
+/// The geometry of a block in scene coordinates; `free` is where the free blocks are, more or less.
 pub(super) fn body(
     spec: &BlockSpec,
     frame: &Frame,
     place: &Origin,
+    free: Vector3<f64>,
 ) -> Result<Geometry, InputError> {
     let path = JsonPath::root().key("shape");
     match &spec.shape {
@@ -185,11 +186,14 @@ pub(super) fn body(
                 )
                 .hint("lengths are in m")));
             }
-            let (polyhedron, mended) =
-                place.check(Polyhedron::from_faces(vertices, &faces).map_err(|e| {
-                    let told = file.map_or_else(|| e.to_string(), |file| format!("{file}: {e}"));
-                    InputError::at(path, told).hint(e.hint())
-                }))?;
+            let made = match spec.support {
+                true => Polyhedron::of_support(vertices, &faces, free),
+                false => Polyhedron::from_faces(vertices, &faces),
+            };
+            let (polyhedron, mended) = place.check(made.map_err(|e| {
+                let told = file.map_or_else(|| e.to_string(), |file| format!("{file}: {e}"));
+                InputError::at(path, told).hint(e.hint())
+            }))?;
             let size = diagonal(&polyhedron.vertices);
             let properties = polyhedron.mass_properties();
             Ok(Geometry { solid: Solid::Polyhedron(polyhedron), properties, size, mended })
