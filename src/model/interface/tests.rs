@@ -524,7 +524,9 @@ fn the_remedy_for_an_overlap_closes_it() {
     assert_eq!(detect(&scene).unwrap().list.len(), 1);
     // An overlap as deep as a block is no matter of tolerances.
     let text =
-        says(&found(&[shapes[0].clone(), shapes[0].clone()]), FindingCode::Overlap)[0].to_string();
+        says(&found(&[shapes[0].clone(), shapes[0].moved(v(0.1, 0.1, 0.1))]), FindingCode::Overlap)
+            [0]
+        .to_string();
     assert!(text.ends_with("Mend the geometry"), "{text}");
 }
 
@@ -575,7 +577,7 @@ fn overlaps_are_reported_with_their_depth_and_carry_nothing() {
     let others = [
         (block(0.0, 0.0, 1.0 - 1e-3, 1.0, 1.0, 1.0), "0.001 m"),
         (block(0.3, 0.2, 1.0 - 1e-3, 1.0, 1.0, 1.0), "0.001 m"),
-        (block(0.0, 0.0, 0.0, 1.0, 1.0, 1.0), "1 m"),
+        (block(0.0, 0.0, 0.01, 1.0, 1.0, 1.0), "0.99 m"),
         (block(0.25, 0.25, 0.25, 0.5, 0.5, 0.5), "0.75 m"),
         (Shape::Ball(v(0.5, 0.5, 1.4), 0.5), "0.1 m"),
         (Shape::Ball(v(0.5, 0.5, 0.5), 0.1), "0.6 m"),
@@ -612,7 +614,7 @@ fn crossed_ridges_that_overlap_are_told_apart_from_crossed_ridges_that_touch() {
 fn overlaps_of_non_convex_blocks_are_found() {
     let u = u_shape();
     for other in [
-        u.clone(),
+        u.moved(v(0.01, 0.0, 0.0)),
         u.moved(v(0.5, 0.0, 0.0)),
         block(0.2, -1.0, 0.2, 0.2, 5.0, 0.2),
         block(1.5, 0.2, 1.5, 1.0, 0.5, 1.0),
@@ -623,6 +625,16 @@ fn overlaps_of_non_convex_blocks_are_found() {
     // In the mouth of the U, touching nothing.
     let free = found(&[u, block(1.5, 0.2, 0.5, 1.0, 0.5, 1.0)]);
     assert!(free.list.is_empty() && free.findings.is_empty(), "{free:?}");
+}
+
+#[test]
+fn a_block_drawn_twice_is_no_overlap() {
+    let base = block(0.0, 0.0, 0.0, 1.0, 1.0, 1.0);
+    for again in [base.clone(), base.moved(v(1e-5, 0.0, 0.0))] {
+        let found = found(&[base.clone(), again]);
+        assert!(says(&found, FindingCode::Overlap).is_empty() && found.left_out.is_none());
+        assert_eq!(says(&found, FindingCode::Twice).len(), 1, "{:?}", found.findings);
+    }
 }
 
 // --- Edges and corners ---
