@@ -10,7 +10,7 @@ use base::{
 };
 use model::{
     assembly::{Assembly, Block, JointLaw, Solid},
-    interface::{ContactKind, Model},
+    interface::{ContactKind, Interface, Model},
     strength::rolling_arm,
 };
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
@@ -93,7 +93,7 @@ pub(super) fn bodies(model: &Model, units: &Units, skin: f64) -> Result<Vec<Body
     let mut bodies =
         assembly.blocks.iter().map(|b| body(b, units, skin)).collect::<Result<Vec<_>, _>>()?;
     for (index, face) in
-        interfaces.list.iter().enumerate().filter(|(_, f)| f.kind == ContactKind::Given)
+        interfaces.list.iter().enumerate().filter(|(_, f)| is_laid_down(assembly, f))
     {
         let size = assembly.blocks[face.a].size.min(assembly.blocks[face.b].size) / units.length;
         let points: Vec<_> = face.points.iter().map(|p| units.place(*p)).collect();
@@ -118,6 +118,19 @@ pub(super) fn bodies(model: &Model, units: &Units, skin: f64) -> Result<Vec<Body
         bodies[face.b].shapes.extend(balls);
     }
     Ok(bodies)
+}
+
+/// Whether two blocks touch where a contact says and not where their shapes do: those given by hand,
+/// and those of faces that overlap, or are not plane and bulge into each other, which statics closes:
+/// the engine would throw them apart.
+fn is_laid_down(assembly: &Assembly, face: &Interface) -> bool {
+    let size = assembly.blocks[face.a].size.min(assembly.blocks[face.b].size);
+    let warped = |i: usize| match &assembly.blocks[i].solid {
+        Solid::Polyhedron(p) => p.facets.iter().any(|f| f.warp > SKIN * size),
+        _ => false,
+    };
+    let presses = face.gap < -SKIN * size || warped(face.a) || warped(face.b);
+    face.kind == ContactKind::Given || face.kind == ContactKind::Face && presses
 }
 
 fn body(block: &Block, units: &Units, skin: f64) -> Result<Body, InputError> {
@@ -308,7 +321,7 @@ impl<'a> Frictions<'a> {
         for (index, face) in interfaces.list.iter().enumerate() {
             let pair = (face.a.min(face.b), face.a.max(face.b));
             let friction = coefficient(face.law.friction);
-            if face.kind == ContactKind::Given {
+            if is_laid_down(assembly, face) {
                 new.given.insert(index as u32, friction);
                 new.apart.insert(pair);
             }

@@ -196,8 +196,11 @@ impl<'a> World<'a> {
                         Rotation::from_xyzw(turn.i, turn.j, turn.k, turn.w),
                     )),
                 Form::Hull { points, triangles } => {
-                    let points = points.iter().map(|p| vector(*p)).collect();
-                    ColliderBuilder::convex_mesh(points, triangles).ok_or_else(refused)?
+                    let points: Vec<_> = points.iter().map(|p| vector(*p)).collect();
+                    // A piece whose faces are turned inside out by the skin is its hull.
+                    ColliderBuilder::convex_mesh(points.clone(), triangles)
+                        .or_else(|| ColliderBuilder::convex_hull(&points))
+                        .ok_or_else(refused)?
                 }
             };
             let asked = ActiveHooks::FILTER_CONTACT_PAIRS | ActiveHooks::MODIFY_SOLVER_CONTACTS;
