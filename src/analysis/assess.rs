@@ -5,10 +5,12 @@
 use super::{
     Bracket, Deciding, Proved,
     coulomb::{DryState, StateMotion, state},
-    flats,
+    flats::beside_flats,
     forest::{Fate, Forest},
     ladder::{Control, Rung, is_large, run, steps},
-    parts, repair,
+    parts,
+    proved::is_proved,
+    repair,
 };
 use base::tolerance;
 use check::{
@@ -112,7 +114,37 @@ pub(super) fn unproved(model: &Model, control: &Control) -> Assessment {
 
 /// The same for one part.
 pub(super) fn of_part(model: &Model, control: &Control) -> Assessment {
-    flats::assess(model, control, &with_normals)
+    let (Some(less), Some(wide)) = (model.without_flats(), model.every_way()) else {
+        return with_normals(model, control);
+    };
+    let mut bare = with_normals(&less, control);
+    bare.forces = beside_flats(model, &bare.forces);
+    if let Some(state) = &mut bare.state {
+        state.forces = beside_flats(model, &state.forces);
+    }
+    let settles = |a: &Assessment| match a.verdict {
+        Verdict::Stable => true,
+        Verdict::Unstable => is_proved(model, a),
+        Verdict::Conditional | Verdict::Undecided => false,
+    };
+    if settles(&bare) {
+        return bare;
+    }
+    let flat = with_normals(model, control);
+    if flat.verdict != Verdict::Unstable || settles(&flat) {
+        return flat;
+    }
+    let every = with_normals(&wide, &Control { law: Law::Associative, ..*control });
+    let Assessment { rates, mechanism, unbalance, .. } = every;
+    match every.verdict {
+        Verdict::Unstable => Assessment { rates, mechanism, unbalance, ..flat },
+        _ => Assessment {
+            verdict: Verdict::Undecided,
+            unbalance: Bracket { lower: 0.0, ..flat.unbalance },
+            mechanism: None,
+            ..flat
+        },
+    }
 }
 
 /// The same where every contact has one normal.

@@ -9,9 +9,11 @@
 use super::{
     Proved,
     assess::{least_unbalance, wedges},
-    flats,
+    flats::beside_flats,
     ladder::{Control, Rung, is_large, run, steps},
-    parts, repair,
+    parts,
+    proved::is_proved,
+    repair,
     warm_start::Near,
 };
 use base::tolerance;
@@ -137,12 +139,38 @@ pub(super) fn of_part_near(
     control: &Control,
     near: &mut Option<Passed>,
 ) -> LoadFactor {
-    // The point of other contacts is none of these.
-    let ask = &mut |own: &Model, control: &Control| match std::ptr::eq(own, model) {
-        true => with_normals(own, control, near),
-        false => with_normals(own, control, &mut None),
+    let (Some(less), Some(wide)) = (model.without_flats(), model.every_way()) else {
+        return with_normals(model, control, near);
     };
-    flats::limit(model, control, ask)
+    let mut bare = with_normals(&less, control, &mut None);
+    bare.forces = beside_flats(model, &bare.forces);
+    bare.base = bare.base.map(|(at, forces)| (at, beside_flats(model, &forces)));
+    if is_proved(model, &bare) {
+        return bare;
+    }
+    let flat = with_normals(model, control, near);
+    if is_proved(model, &flat) {
+        return flat;
+    }
+    let every = with_normals(&wide, control, &mut None);
+    let lower = match flat.outcome {
+        Outcome::Impossible => f64::NEG_INFINITY,
+        _ => flat.bracket.lower,
+    };
+    let both = LoadFactor {
+        outcome: match every.outcome {
+            Outcome::Impossible => Outcome::Impossible,
+            _ => Outcome::Found,
+        },
+        bracket: Bracket { lower, upper: every.bracket.upper },
+        rates: every.rates,
+        mechanism: every.mechanism,
+        ..flat
+    };
+    match is_proved(model, &both) {
+        true => both,
+        false => LoadFactor { outcome: Outcome::Undecided, mechanism: None, ..both },
+    }
 }
 
 /// The same where every contact has one normal.

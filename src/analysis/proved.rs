@@ -61,6 +61,11 @@ impl<T: Claims> Proved<T> {
     }
 }
 
+/// Whether an answer is proved as it stands: a search goes on until one is.
+pub(super) fn is_proved(model: &Model, answer: &impl Claims) -> bool {
+    answer.claim().is_some_and(|c| claim::verify(model, &c, answer.evidence()).proved())
+}
+
 impl<T> Proved<T> {
     /// What is proved; nothing where the answer is undecided.
     pub fn claim(&self) -> Option<Claim> {

@@ -5,10 +5,11 @@
 //! own. Beside it stands the geometric safety factor ([`geometric`](super::geometric)).
 
 use super::{
-    Assessment, Control, Proved, assess, flats,
+    Assessment, Control, Proved, assess,
     geometric::{Geometric, geometric_factor},
     ladder::{Candidate, Rung, run},
     parts,
+    proved::is_proved,
 };
 use base::{
     error::{InputError, JsonPath},
@@ -252,7 +253,25 @@ pub(super) fn of_part(
 ) -> ThrustEnd {
     let ask =
         |model: &Model, standing: &Forces| with_normals(model, at, extreme, standing, control);
-    flats::thrust(model, standing, &ask)
+    let flat = ask(model, standing);
+    let Some(wide) = model.every_way().filter(|_| !is_proved(model, &flat)) else { return flat };
+    let mut more = no_forces(&wide.interfaces);
+    let extra = wide.interfaces.list.len() - model.interfaces.list.len();
+    for (k, own) in standing.iter().enumerate() {
+        let at = if k < model.interfaces.list.len() { k } else { k + extra };
+        more[at].clone_from(own);
+    }
+    let every = ask(&wide, &more);
+    // The forces are those across the flats, the bound is that of all ways.
+    let bracket = match flat.extreme {
+        Extreme::Least => Bracket { lower: every.bracket.lower, upper: flat.bracket.upper },
+        Extreme::Greatest => Bracket { lower: flat.bracket.lower, upper: every.bracket.upper },
+    };
+    let both = ThrustEnd { outcome: Outcome::Found, bracket, rates: every.rates, ..flat };
+    match is_proved(model, &both) {
+        true => both,
+        false => ThrustEnd { outcome: Outcome::Undecided, value: None, ..both },
+    }
 }
 
 /// The same where every contact has one normal.

@@ -205,6 +205,9 @@ impl<'a> Session<'a> {
 
     /// The same, of what happens in time: with somebody who watches.
     pub fn ask_watched(&self, question: &Question, watch: Watch) -> anyhow::Result<Answer> {
+        if let Some(beyond) = dynamics::beyond(&self.model) {
+            terminal::say(&format!("warning: {}", beyond.text));
+        }
         ask_watched(question, &self.scene, &self.model, &self.control(), watch)
             .map_err(|e| self.refuse(e))
     }

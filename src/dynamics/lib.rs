@@ -33,8 +33,8 @@ mod units;
 pub use check::terms::{Fate, Fidelity, Run, Stop};
 pub use outcome::{FirstMotion, Frame, MeanContact, Pose, SimulationOutcome};
 pub use run::{
-    BlockMotion, Burden, Carriage, CarriedAlong, Shaken, ShakenFate, Shaking, SupportWay, carry,
-    shake, simulate,
+    BlockMotion, Burden, Carriage, CarriedAlong, Shaken, ShakenFate, Shaking, SupportWay, beyond,
+    carry, shake, simulate,
 };
 
 #[cfg(doc)]

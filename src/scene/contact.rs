@@ -4,7 +4,8 @@ use base::tolerance;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Contact tolerances, relative to the size (bounding-box diagonal) of the smaller block of a pair.
+/// Contact tolerances, relative to the size (bounding-box diagonal) of the smaller block of a pair; a gap
+/// beside a support to that of the free block, for a support is as large as it was drawn.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ContactSpec {

@@ -44,3 +44,13 @@ pub enum AxleForce {
     /// A vector, N, along gravity.
     Vector([f64; 3]),
 }
+
+impl AxleForce {
+    /// How large it is, N.
+    pub fn size(self) -> f64 {
+        match self {
+            Self::Down(force) => force,
+            Self::Vector([x, y, z]) => x.hypot(y).hypot(z),
+        }
+    }
+}

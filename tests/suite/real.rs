@@ -149,11 +149,9 @@ fn warped_joints_of_the_armadillo_vault_are_found_at_any_gap() {
         (scene.contact.gap, scene.contact.min_area) = (gap, min_area);
         let m = ready(&scene);
         let faces = m.interfaces.list.iter().filter(|f| f.kind == ContactKind::Face).count();
-        assert_eq!(
-            (m.interfaces.list.len(), faces, m.interfaces.support_pairs),
-            (1014, 1014, 29),
-            "gap {gap}"
-        );
+        // Corners that others leave open are no joints.
+        let joints = m.interfaces.list.iter().filter(|f| f.ways.is_empty()).count();
+        assert_eq!((joints, faces, m.interfaces.support_pairs), (1014, 1014, 29), "gap {gap}");
         let id = |b: usize| m.assembly.blocks[b].id.as_str();
         let around: Vec<_> = m
             .interfaces
@@ -249,7 +247,8 @@ fn remedies_for_vaults_with_open_joints_make_them_stand() {
             "{name}"
         );
         assert_eq!(admissible(&mended), Verdict::Stable, "{name}");
-        assert_eq!(mended.interfaces.list.len(), interfaces, "{name}");
+        let joints = mended.interfaces.list.iter().filter(|f| f.ways.is_empty()).count();
+        assert_eq!(joints, interfaces, "{name}");
     }
 }
 

@@ -142,6 +142,7 @@ pub fn shake(
         Stage { model, bodies: &bodies, frictions: &frictions, units, loads: &loads, settings };
     let mut shaken = scene.shake(&ground, watch)?;
     shaken.findings.extend(strengths(interfaces));
+    shaken.findings.extend(super::beyond(model));
     shaken.findings.extend(massless(model, ground.burdens));
     Ok(shaken)
 }

@@ -11,19 +11,20 @@
 //! blocks, on how faces were triangulated, or on where and how the scene stands.
 
 use super::{
-    ContactFrame, ContactKind, Interface, Interfaces,
+    ContactKind, Interface, Interfaces,
     body::{BoundedBlock, Bounds, Form, Solidity},
     detect_candidates::candidates,
-    faces::{self, Closing, FaceContact, Gap},
-    features::{self, Touch},
-    given,
+    detect_rims,
+    faces::{self, Closing},
+    features, given,
     limits::Limits,
+    meeting::{Meeting, Near, Overlap, Pair, of_face, of_touch},
     overlap,
     plane::Plane,
-    polygon, rims, spheres,
+    spheres,
     tally::Tally,
 };
-use crate::assembly::{Assembly, GivenInterface, JointLaw};
+use crate::assembly::{Assembly, JointLaw};
 use base::{
     error::{InputError, JsonPath},
     limits::CONTACT_POINTS,
@@ -82,9 +83,8 @@ pub fn detect_until(
     }
     take_apart(&mut pairs, &mut tally, assembly);
 
-    let covers = Covers::of(&pairs);
-    pairs.iter_mut().for_each(|pair| pair.meet_at_rims(&bodies, &covers));
-    name_normals(&mut pairs, &normals, assembly)?;
+    detect_rims::meet(&mut pairs, &bodies);
+    detect_rims::name_normals(&mut pairs, &normals, assembly)?;
 
     let (mut points, mut apart) = (0, Vec::new());
     for Pair { a, b, limits, meeting } in pairs {
@@ -166,53 +166,6 @@ pub fn detect_until(
     Ok(interfaces)
 }
 
-/// Gives touches with several normals the ones that the scene names.
-fn name_normals(
-    pairs: &mut [Pair],
-    normals: &[&GivenInterface],
-    assembly: &Assembly,
-) -> Result<(), InputError> {
-    for g in normals {
-        let refuse = |why: &str| {
-            let [a, b] = [g.a, g.b].map(|i| &assembly.blocks[i].id);
-            let text = format!("the normal of the interface between {a:?} and {b:?} {why}");
-            InputError::at(JsonPath::root().key("interfaces"), text)
-        };
-        let (of, sign) = if g.a < g.b { ((g.a, g.b), 1.0) } else { ((g.b, g.a), -1.0) };
-        let pair = pairs.iter_mut().find(|p| (p.a, p.b) == of);
-        let mut open = pair
-            .into_iter()
-            .flat_map(|p| &mut p.meeting.contacts)
-            .filter(|c| !c.ways.is_empty())
-            .peekable();
-        if open.peek().is_none() {
-            return Err(refuse(
-                "is of no use: no edges or corners of the two meet with several normals",
-            )
-            .hint("remove it, or give the points of the contact as well"));
-        }
-        for contact in open {
-            let n = g.normal * sign;
-            if !rims::is_among(&n, &contact.ways, NAMED) {
-                return Err(refuse("digs one of them into the other where they meet")
-                    .hint("it points from the first block into the second"));
-            }
-            contact.ways.clear();
-            contact.frame = match contact.points[..] {
-                [p, q] => {
-                    let along = (q - p).normalize();
-                    ContactFrame::along((n - along * n.dot(&along)).normalize(), along)
-                }
-                _ => ContactFrame::around(n),
-            };
-        }
-    }
-    Ok(())
-}
-
-/// How far a named normal may lie outside those that are possible: written with three digits.
-const NAMED: f64 = 1e-3;
-
 /// How the joint between two blocks that touch resists.
 fn law(assembly: &Assembly, a: usize, b: usize) -> Result<JointLaw, InputError> {
     assembly.joints.law(a, b, &assembly.blocks).ok_or_else(|| {
@@ -237,65 +190,6 @@ impl Interfaces {
         // What the joints of strips have to say was said where they were detected.
         interfaces.join(assembly)?;
         Ok(interfaces)
-    }
-}
-
-/// A pair of blocks that have something to do with each other.
-struct Pair {
-    a: usize,
-    b: usize,
-    limits: Limits,
-    meeting: Meeting,
-}
-
-/// What two blocks have to do with each other.
-#[derive(Default)]
-struct Meeting {
-    contacts: Vec<Contact>,
-    near: Option<Near>,
-    overlap: Option<Overlap>,
-    /// Whether one is the other once more.
-    twice: bool,
-    small: Vec<f64>,
-    /// Whether rims may meet.
-    rims: bool,
-    /// Whether the blocks meet at rims alone, where nothing carries.
-    idle: bool,
-}
-
-/// An [`Interface`] before its friction is known.
-struct Contact {
-    kind: ContactKind,
-    frame: ContactFrame,
-    points: Vec<Vector3<f64>>,
-    area: f64,
-    patches: usize,
-    pieces: Vec<Vec<Vector3<f64>>>,
-    ways: Vec<Vector3<f64>>,
-    gap: Gap,
-}
-
-/// A near miss; spheres have no plane.
-struct Near {
-    gap: f64,
-    closing: Closing,
-    plane: Option<Plane>,
-}
-
-/// An overlap deeper than the tolerance.
-struct Overlap {
-    depth: f64,
-    /// What would join the blocks, if not too far.
-    closing: Option<Closing>,
-}
-
-impl Meeting {
-    fn is_nothing(&self) -> bool {
-        self.contacts.is_empty()
-            && self.near.is_none()
-            && self.overlap.is_none()
-            && self.small.is_empty()
-            && !self.rims
     }
 }
 
@@ -393,174 +287,6 @@ fn closed_by(
     let wider = Limits { gap: depth * (1.0 + 1e-9), ..*limits };
     let closing = Closing { gap: depth, lean: 0.0 };
     (!faces::facing(a, b, window, &wider).contacts.is_empty()).then_some(closing)
-}
-
-fn of_touch(touch: Touch, sign: f64) -> Contact {
-    let n = touch.n * sign;
-    let (kind, frame) = match touch.points[..] {
-        [p, q] => (ContactKind::Edge, ContactFrame::along(n, q - p)),
-        _ => (ContactKind::Point, ContactFrame::around(n)),
-    };
-    Contact {
-        kind,
-        frame,
-        points: touch.points,
-        area: 0.0,
-        patches: touch.patches,
-        pieces: Vec::new(),
-        ways: touch.ways.iter().map(|w| w * sign).collect(),
-        gap: touch.gap,
-    }
-}
-
-fn of_face(face: &FaceContact, limits: &Limits) -> Contact {
-    let lift = |polygon: &Vec<_>| polygon.iter().map(|&p| face.plane.lift(p)).collect::<Vec<_>>();
-    Contact {
-        kind: ContactKind::Face,
-        frame: face.plane.frame,
-        points: lift(&face.hull),
-        area: face.area,
-        patches: face.patches,
-        pieces: if face.fills_hull(limits) {
-            Vec::new()
-        } else {
-            face.pieces.iter().map(lift).collect()
-        },
-        ways: Vec::new(),
-        gap: face.gap,
-    }
-}
-
-impl Contact {
-    /// Whether a touch at `p` along one of `ways` is this one.
-    fn is_at(&self, p: Vector3<f64>, ways: &[Vector3<f64>], limits: &Limits) -> bool {
-        let here = match self.kind {
-            ContactKind::Face => lies_on(&self.points, &self.pieces, &self.frame, p, limits),
-            _ => {
-                let [q, r] = [self.points[0], self.points[self.points.len() - 1]];
-                features::distance_to_segment(p, q, r) <= 2.0 * limits.gap
-            }
-        };
-        here && rims::is_among(&self.frame.n, ways, 2.0 * limits.chord)
-    }
-}
-
-/// Whether `p` lies on a face contact.
-fn lies_on(
-    points: &[Vector3<f64>],
-    pieces: &[Vec<Vector3<f64>>],
-    frame: &ContactFrame,
-    p: Vector3<f64>,
-    limits: &Limits,
-) -> bool {
-    let plane = Plane { origin: points[0], frame: *frame };
-    let inside = |polygon: &[Vector3<f64>]| {
-        let flat: Vec<_> = polygon.iter().map(|&x| plane.flat(x)).collect();
-        polygon::contains(&flat, plane.flat(p), limits.gap)
-    };
-    plane.height(p).abs() <= limits.gap
-        && if pieces.is_empty() { inside(points) } else { pieces.iter().any(|q| inside(q)) }
-}
-
-/// What lies against the faces of each block.
-#[derive(Default)]
-struct Covers(HashMap<usize, Vec<Cover>>);
-
-/// A face contact, as one of its blocks sees it.
-struct Cover {
-    other: usize,
-    /// The normal points out of the block.
-    frame: ContactFrame,
-    points: Vec<Vector3<f64>>,
-    pieces: Vec<Vec<Vector3<f64>>>,
-}
-
-impl Covers {
-    /// Those of the blocks whose rims may meet others.
-    fn of(pairs: &[Pair]) -> Self {
-        let asked: HashSet<usize> =
-            pairs.iter().filter(|p| p.meeting.rims).flat_map(|p| [p.a, p.b]).collect();
-        let mut covers = Self::default();
-        for pair in pairs {
-            for (own, other, turn) in [(pair.a, pair.b, false), (pair.b, pair.a, true)] {
-                if !asked.contains(&own) {
-                    continue;
-                }
-                let faces = pair.meeting.contacts.iter().filter(|c| c.kind == ContactKind::Face);
-                covers.0.entry(own).or_default().extend(faces.map(|c| {
-                    Cover {
-                        other,
-                        frame: if turn { ContactFrame::around(-c.frame.n) } else { c.frame },
-                        // In order around their normal.
-                        points: if turn {
-                            c.points.iter().rev().copied().collect()
-                        } else {
-                            c.points.clone()
-                        },
-                        pieces: c
-                            .pieces
-                            .iter()
-                            .map(
-                                |p| {
-                                    if turn { p.iter().rev().copied().collect() } else { p.clone() }
-                                },
-                            )
-                            .collect(),
-                    }
-                }));
-            }
-        }
-        covers
-    }
-
-    /// Whether a block other than `b` lies against the face of `a` with this normal, at a point.
-    fn any(&self, [a, b]: [usize; 2], n: &Vector3<f64>, at: Vector3<f64>, limits: &Limits) -> bool {
-        self.0.get(&a).into_iter().flatten().any(|c| {
-            c.other != b
-                && (c.frame.n - n).norm() <= 2.0 * limits.chord
-                && lies_on(&c.points, &c.pieces, &c.frame, at, limits)
-        })
-    }
-}
-
-impl Pair {
-    /// Adds what meets at rims.
-    fn meet_at_rims(&mut self, bodies: &[BoundedBlock], covers: &Covers) {
-        let (a, b, limits) = (&bodies[self.a], &bodies[self.b], &self.limits);
-        let (Form::Polyhedron(p), Form::Polyhedron(q)) = (&a.shape, &b.shape) else { return };
-        if !self.meeting.rims {
-            return;
-        }
-        let common = |slack: f64| a.bounds.loosened(slack).common(&b.bounds.loosened(slack));
-        let (of_a, of_b) = ([self.a, self.b], [self.b, self.a]);
-        let covered = |limits: &Limits| {
-            let limits = *limits;
-            [of_a, of_b].map(|of| move |n: &Vector3<f64>, at| covers.any(of, n, at, &limits))
-        };
-        if a.bounds.distance(&b.bounds) <= limits.gap {
-            let known =
-                |p, ways: &[_]| self.meeting.contacts.iter().any(|c| c.is_at(p, ways, limits));
-            let rims = rims::meet([p, q], &common(limits.gap), limits, &covered(limits), &known);
-            self.meeting.idle =
-                rims.idle && self.meeting.contacts.is_empty() && rims.touches.is_empty();
-            self.meeting.contacts.extend(rims.touches.into_iter().map(|t| of_touch(t, 1.0)));
-        }
-        if !self.meeting.contacts.is_empty() || self.meeting.near.is_some() || self.meeting.idle {
-            return;
-        }
-        // What would touch if more were closed.
-        let far = Limits { gap: limits.near, ..*limits };
-        let window = common(far.gap);
-        let mut near = features::touches(p, q, &window, &far, &|_, _| false);
-        near.extend(rims::meet([p, q], &window, &far, &covered(&far), &|_, _| false).touches);
-        let gap = |t: &Touch| t.gap.greatest.max(-t.gap.least);
-        let nearest = near.iter().map(gap).fold(f64::INFINITY, f64::min);
-        self.meeting.near = nearest.is_finite().then_some(Near {
-            gap: nearest,
-            closing: Closing { gap: nearest, lean: 0.0 },
-            plane: None,
-        });
-    }
 }
 
 /// Two blocks facing each other across a gap: a contact or a near miss.

@@ -6,8 +6,8 @@ use nalgebra::Vector3;
 use scene::ContactSpec;
 
 /// What counts as touching between two given blocks. All lengths derive from the size of the
-/// smaller block, and none is below the rounding of the coordinates. A support is as large as it was
-/// drawn, which says nothing: beside a free block only that one counts.
+/// smaller block, and none is below the rounding of the coordinates. How far apart two blocks may be
+/// that touch is no matter of how large a support was drawn: beside a free block only that one counts.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limits {
     /// Size of the smaller free block, of two supports of the smaller one, m.
@@ -35,10 +35,11 @@ pub(super) fn near(spec: &ContactSpec) -> f64 {
 
 impl Limits {
     pub fn of(a: &BoundedBlock, b: &BoundedBlock, spec: &ContactSpec) -> Self {
+        let smaller = a.block.size.min(b.block.size);
         let size = match (a.block.support, b.block.support) {
             (true, false) => b.block.size,
             (false, true) => a.block.size,
-            _ => a.block.size.min(b.block.size),
+            _ => smaller,
         };
         // The greater block's corners count too: they carry the plane the smaller one lies on.
         let rounding = tolerance::COORDINATE_ROUNDING * a.bounds.reach().max(b.bounds.reach());
@@ -47,9 +48,9 @@ impl Limits {
             size,
             gap,
             near: (near(spec) * size).max(gap),
-            weld: (tolerance::CONTACT_WELD * size).max(rounding),
-            noise: (tolerance::GAP_WORTH_TELLING * size).max(rounding),
-            min_area: spec.min_area * size * size,
+            weld: (tolerance::CONTACT_WELD * smaller).max(rounding),
+            noise: (tolerance::GAP_WORTH_TELLING * smaller).max(rounding),
+            min_area: spec.min_area * smaller * smaller,
             chord: chord(spec.angle_deg) + tolerance::CONTACT_ROUNDING_ANGLE,
             near_chord: chord(spec.angle_deg.max(tolerance::NEAR_MISS_ANGLE_DEG))
                 + tolerance::CONTACT_ROUNDING_ANGLE,

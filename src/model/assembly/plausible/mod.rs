@@ -10,6 +10,7 @@
 
 mod blocks;
 mod bounds;
+mod bridges;
 mod joints;
 mod loads;
 mod members;
@@ -28,7 +29,7 @@ use told::{Told, Weights, density, first, free, is_on_earth, median, short};
 pub(super) fn mistakes(scene: &Scene, assembly: &Assembly) -> Vec<Finding> {
     let units =
         blocks::mistakes(scene, assembly).into_iter().chain(joints::mistakes(scene, assembly));
-    let units = units.chain(site::mistakes(scene));
+    let units = units.chain(site::mistakes(scene)).chain(bridges::mistakes(scene, assembly));
     let units = units.map(|text| Finding::new(FindingCode::Units, text));
     units
         .chain(

@@ -1,0 +1,62 @@
+//! The numbers of bridges: lengths in millimetres or centimetres, axles in kilonewtons.
+
+use super::{is_on_earth, short};
+use crate::assembly::Assembly;
+use scene::{Scene, Template};
+
+/// Clear spans of masonry arches, m: the longest of all, at Danhe, has 146. Below, a drain.
+const SPAN: std::ops::Range<f64> = 0.3..200.0;
+/// Cover over the crown, m. Above, hills are meant, or another unit.
+const COVER: f64 = 15.0;
+/// Thickness of a ring over its span: the thinnest that stand have 1/40, drains 1/3.
+const RING: f64 = 1.0;
+/// An axle on a road or a rail, N: a cart has 1,000, the heaviest wagon 400,000. Below, kN are meant.
+const AXLE: f64 = 1000.0;
+
+/// What looks like a mistake in a bridge.
+pub(super) fn mistakes(scene: &Scene, assembly: &Assembly) -> Vec<String> {
+    let mut texts = Vec::new();
+    if !is_on_earth(assembly) {
+        return texts;
+    }
+    for (i, template) in scene.templates.iter().enumerate() {
+        let Template::Bridge(bridge) = template else { continue };
+        let mut long = |place: String, value: f64, most: f64, why: &str| {
+            if value > most {
+                let unit = if value / 1000.0 > 0.02 * most { "millimetres" } else { "centimetres" };
+                texts.push(format!(
+                    "templates[{i}].bridge.{place} is {} m: {why}. It looks like {unit}: lengths are in m",
+                    short(value)
+                ));
+            }
+        };
+        for (k, span) in bridge.spans.iter().enumerate() {
+            long(
+                format!("spans[{k}].clear_span"),
+                span.clear_span,
+                SPAN.end,
+                "the longest masonry arch spans 146 m",
+            );
+            let thick = RING * span.clear_span.min(SPAN.end).max(SPAN.start);
+            let why = "no ring is thicker than its span";
+            if span.clear_span > 0.0 {
+                long(format!("spans[{k}].thickness"), span.thickness, thick, why);
+            }
+        }
+        if let Some(fill) = &bridge.fill {
+            long("fill.cover".into(), fill.cover, COVER, "no arch carries so much");
+        }
+    }
+    let axles = scene.train.iter().flat_map(|t| &t.axles).enumerate();
+    let light = |(k, axle): (usize, &scene::Axle)| {
+        let force = axle.force.size();
+        (force > 0.0 && force < AXLE).then(|| {
+            format!(
+                "train.axles[{k}].force is {} N, less than a cart. It looks like kN: forces are in N",
+                short(force)
+            )
+        })
+    };
+    texts.extend(axles.filter_map(light));
+    texts
+}
