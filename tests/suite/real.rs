@@ -225,7 +225,8 @@ fn remedies_for_vaults_with_open_joints_make_them_stand() {
             ImportOptions { support_below: Some(1.744), ..own },
             488,
         ),
-        (pavilion.join("blocks.json"), held, 1141),
+        // One of them is a corner on the rim of a face.
+        (pavilion.join("blocks.json"), held, 1142),
     ] {
         let mut scene = read(path, &options);
         let name = scene.name.clone();

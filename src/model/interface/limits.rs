@@ -47,7 +47,7 @@ impl Limits {
         Self {
             size,
             gap,
-            near: (near(spec) * size).max(gap),
+            near: (near(spec) * smaller).max(gap),
             weld: (tolerance::CONTACT_WELD * smaller).max(rounding),
             noise: (tolerance::GAP_WORTH_TELLING * smaller).max(rounding),
             min_area: spec.min_area * smaller * smaller,
