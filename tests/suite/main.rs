@@ -31,6 +31,7 @@ mod determinism;
 mod doubts;
 mod dry;
 mod dynamics;
+mod edges;
 mod extreme;
 #[cfg(target_os = "linux")]
 mod faults;

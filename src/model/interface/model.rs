@@ -133,6 +133,8 @@ impl Model {
             own.iter().flat_map(|f| f.ways.iter().map(|n| one(f, n))).collect();
         (!more.is_empty()).then(|| {
             let mut wide = self.clone();
+            // All of its contacts have one normal.
+            wide.interfaces.list.iter_mut().for_each(|f| f.ways.clear());
             wide.interfaces.list.extend(more);
             wide
         })

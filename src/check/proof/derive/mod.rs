@@ -30,7 +30,7 @@ use crate::{
     terms::{Fate, Found, Law, StateMotion},
     verdict::{
         Verdict,
-        claim::Findings,
+        claim::{Claim, Findings},
         exact::Grade,
         tilted::{direction, tilted},
     },
@@ -332,7 +332,9 @@ impl Derivation<'_> {
 /// The flats of a scene that matter to an answer: what the forces press; where nothing is claimed, all.
 fn flattened(model: &Model, certificate: &Certificate, claimed: bool) -> Vec<[String; 2]> {
     let Model { assembly, interfaces, .. } = model;
-    if interfaces.list.iter().all(|f| f.ways.is_empty()) {
+    // What falls falls whichever of the normals acts.
+    let falls = matches!(certificate.claim, Some(Claim::Unstable | Claim::Impossible));
+    if falls || interfaces.list.iter().all(|f| f.ways.is_empty()) {
         return Vec::new();
     }
     let forces = certificate.read(model).map(|read| read.0).unwrap_or_default();
