@@ -27,10 +27,10 @@ pub fn in_balance(model: &Model) -> Vec<usize> {
             [p, q] => {
                 let along = (q - p).normalize();
                 let off = |x: &Vector3<f64>| (x - p).cross(&along).norm();
-                let near = |f: &&Interface| {
+                let near = |f: &Interface| {
                     f.points.len() == 2 && f.points.iter().all(|x| off(x) <= ON_A_LINE * block.size)
                 };
-                if !contacts[i].iter().all(|f| near(&f)) {
+                if !contacts[i].iter().all(|f| near(f)) {
                     return false;
                 }
                 (p + q) / 2.0

@@ -27,6 +27,9 @@ struct Side<'a> {
     covered: &'a dyn Fn(&Vector3<f64>, Vector3<f64>) -> bool,
 }
 
+/// Whether a contact lies at a point already, with a normal among these directions.
+pub(super) type Known<'a> = &'a dyn Fn(Vector3<f64>, &[Vector3<f64>]) -> bool;
+
 /// What was found at the rims of two blocks.
 #[derive(Default)]
 pub(super) struct Rims {
@@ -47,7 +50,7 @@ pub(super) fn meet(
     window: &Bounds,
     limits: &Limits,
     covered: &[impl Fn(&Vector3<f64>, Vector3<f64>) -> bool; 2],
-    known: &dyn Fn(Vector3<f64>, &[Vector3<f64>]) -> bool,
+    known: Known,
 ) -> Rims {
     let [a, b] = [Side { solid: a, covered: &covered[0] }, Side { solid: b, covered: &covered[1] }];
     let mut rims = Rims::default();

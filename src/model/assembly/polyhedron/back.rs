@@ -33,12 +33,11 @@ impl Polyhedron {
     }
 }
 
+/// Corners and faces of a sheet with its body, and how thick that is, m.
+type Backed = (Vec<Vector3<f64>>, Vec<Vec<usize>>, f64);
+
 /// The sheet, its copy behind it, and the strip between their rims.
-fn backed(
-    vertices: Vec<Vector3<f64>>,
-    faces: &[Vec<usize>],
-    free: Vector3<f64>,
-) -> Option<(Vec<Vector3<f64>>, Vec<Vec<usize>>, f64)> {
+fn backed(vertices: Vec<Vector3<f64>>, faces: &[Vec<usize>], free: Vector3<f64>) -> Option<Backed> {
     // Corners in one place are one: sheets often come as faces on their own.
     let mut places: HashMap<[u64; 3], usize> = HashMap::new();
     let own: Vec<usize> = vertices
