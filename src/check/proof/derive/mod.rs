@@ -118,7 +118,10 @@ pub fn derive(
     let mut own = Derivation { question: &question, scene, model, again, check };
     let mut told = own.told(&evidence)?;
     own.left_out(&mut told, closed.as_ref())?;
-    told.flattened = flattened(model, &told.certificate, own.check.claimed);
+    // In time blocks meet as their shapes do.
+    if !matches!(told.answer, Answer::Simulation(_) | Answer::Shaken(_)) || told.motion.is_some() {
+        told.flattened = flattened(model, &told.certificate, own.check.claimed);
+    }
     if matches!(&told.answer, Answer::Verdict(v) if v.verdict == Verdict::Stable) {
         told.in_balance = model.ids(&interface::in_balance(model));
     }
@@ -329,7 +332,8 @@ impl Derivation<'_> {
     }
 }
 
-/// The flats of a scene that matter to an answer: what the forces press; where nothing is claimed, all.
+/// The flats of a scene that matter to an answer: what the forces press; all where nothing is claimed,
+/// or by many proofs.
 fn flattened(model: &Model, certificate: &Certificate, claimed: bool) -> Vec<[String; 2]> {
     let Model { assembly, interfaces, .. } = model;
     // What falls falls whichever of the normals acts.
@@ -340,11 +344,9 @@ fn flattened(model: &Model, certificate: &Certificate, claimed: bool) -> Vec<[St
     let forces = certificate.read(model).map(|read| read.0).unwrap_or_default();
     let pressed =
         |k: usize| forces.get(k).is_some_and(|f| f.iter().any(|w| w.force != Vector3::zeros()));
-    let flats = interfaces
-        .list
-        .iter()
-        .enumerate()
-        .filter(|(k, f)| !f.ways.is_empty() && (!claimed || pressed(*k)));
+    let all = !claimed || certificate.is_empty();
+    let list = interfaces.list.iter().enumerate();
+    let flats = list.filter(|(k, f)| !f.ways.is_empty() && (all || pressed(*k)));
     flats.map(|(_, f)| [f.a, f.b].map(|i| assembly.blocks[i].id.clone())).collect()
 }
 
