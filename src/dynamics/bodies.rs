@@ -92,8 +92,9 @@ pub(super) fn bodies(model: &Model, units: &Units, skin: f64) -> Result<Vec<Body
     let Model { assembly, interfaces, .. } = model;
     let mut bodies =
         assembly.blocks.iter().map(|b| body(b, units, skin)).collect::<Result<Vec<_>, _>>()?;
+    let apart = laid_down(model);
     for (index, face) in
-        interfaces.list.iter().enumerate().filter(|(_, f)| is_laid_down(assembly, f))
+        interfaces.list.iter().enumerate().filter(|(_, f)| apart.contains(&pair(f)))
     {
         let size = assembly.blocks[face.a].size.min(assembly.blocks[face.b].size) / units.length;
         let points: Vec<_> = face.points.iter().map(|p| units.place(*p)).collect();
@@ -120,17 +121,26 @@ pub(super) fn bodies(model: &Model, units: &Units, skin: f64) -> Result<Vec<Body
     Ok(bodies)
 }
 
-/// Whether two blocks touch where a contact says and not where their shapes do: those given by hand,
-/// and those of faces that overlap, or are not plane and bulge into each other, which statics closes:
-/// the engine would throw them apart.
-fn is_laid_down(assembly: &Assembly, face: &Interface) -> bool {
-    let size = assembly.blocks[face.a].size.min(assembly.blocks[face.b].size);
-    let warped = |i: usize| match &assembly.blocks[i].solid {
-        Solid::Polyhedron(p) => p.facets.iter().any(|f| f.warp > SKIN * size),
-        _ => false,
+/// Pairs of blocks that touch where their contacts say and not where their shapes do, all contacts of a
+/// pair alike: those given by hand, and those of faces that overlap, or are not plane and bulge into
+/// each other, which statics closes: the engine would throw them apart.
+fn laid_down(model: &Model) -> HashSet<(usize, usize)> {
+    let blocks = &model.assembly.blocks;
+    let is = |face: &&Interface| {
+        let size = blocks[face.a].size.min(blocks[face.b].size);
+        let warped = |i: usize| match &blocks[i].solid {
+            Solid::Polyhedron(p) => p.facets.iter().any(|f| f.warp > SKIN * size),
+            _ => false,
+        };
+        let presses = face.gap < -SKIN * size || warped(face.a) || warped(face.b);
+        face.kind == ContactKind::Given || face.kind == ContactKind::Face && presses
     };
-    let presses = face.gap < -SKIN * size || warped(face.a) || warped(face.b);
-    face.kind == ContactKind::Given || face.kind == ContactKind::Face && presses
+    model.interfaces.list.iter().filter(is).map(pair).collect()
+}
+
+/// The blocks of a contact, in ascending order.
+fn pair(face: &Interface) -> (usize, usize) {
+    (face.a.min(face.b), face.a.max(face.b))
 }
 
 fn body(block: &Block, units: &Units, skin: f64) -> Result<Body, InputError> {
@@ -229,7 +239,7 @@ pub(super) struct Frictions<'a> {
     length: f64,
     known: HashMap<(usize, usize), Resistance>,
     given: HashMap<u32, f64>,
-    /// Pairs of blocks whose contact is given by hand.
+    /// Pairs of blocks whose contacts are laid down.
     apart: HashSet<(usize, usize)>,
     rules: Table,
 }
@@ -315,15 +325,14 @@ impl<'a> Frictions<'a> {
             length: units.length,
             known: HashMap::new(),
             given: HashMap::new(),
-            apart: HashSet::new(),
+            apart: laid_down(model),
             rules: Table::of(assembly),
         };
         for (index, face) in interfaces.list.iter().enumerate() {
-            let pair = (face.a.min(face.b), face.a.max(face.b));
+            let pair = pair(face);
             let friction = coefficient(face.law.friction);
-            if is_laid_down(assembly, face) {
+            if new.apart.contains(&pair) {
                 new.given.insert(index as u32, friction);
-                new.apart.insert(pair);
             }
             let arm = rolling_arm(face) / units.length;
             let is_round = new.is_round(face.a) || new.is_round(face.b);

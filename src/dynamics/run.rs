@@ -144,9 +144,9 @@ fn unknown_members(interfaces: &Interfaces) -> Option<Finding> {
     Some(Finding::new(FindingCode::LeftOut, text))
 }
 
-/// Greatest ratio of the masses of two free blocks that touch. Larger: the engine's iterations leave
-/// the lighter one pressed in, and what stands falls (columns of mass ratio 1e5, triangles of spheres
-/// from 1e4 up). Smaller: scenes are warned of that it runs.
+/// Ratio of the masses of two free blocks that touch from which it is told. Larger: columns with a heavy
+/// block on top fall that stand (of two blocks at 1e5), or come to no rest (of five at 1e4). Smaller:
+/// scenes are warned of that it runs (both stand at 1e3).
 const MOST_UNEQUAL: f64 = 1e4;
 
 /// Says what the engine cannot hold, before it runs.

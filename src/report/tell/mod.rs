@@ -87,11 +87,11 @@ pub(crate) fn title(page: &mut Page, file: &ResultFile) {
     }
     if let Some(id) = file.in_balance.first() {
         let more = match file.in_balance.len() {
-            1 => "stands".to_string(),
-            n => format!("and {} more stand", n - 1),
+            1 => String::new(),
+            n => format!(" (as {} more do)", n - 1),
         };
         text = format!(
-            "{text}, but only in balance: {id} {more} on an edge or a point and bears no push"
+            "{text}, but only in balance: {id} stands on an edge or a point and bears no push{more}"
         );
         role = if role == Role::Good { Role::Unsure } else { role };
     }
