@@ -228,8 +228,8 @@ pub fn flow(
             .free()
             .any(|i| Some(i) != course.lid && !assembly.blocks[i].solid.is_round()),
     };
-    let mut world = World::new(&bodies, &frictions, step)
-        .map_err(|text| InputError::at(Default::default(), text))?;
+    let mut world =
+        World::new(&bodies, &frictions, step).map_err(|refused| refused.told(&assembly.blocks))?;
     course.lid.into_iter().for_each(|lid| world.guide(lid));
     let free: Vec<usize> = assembly.free().collect();
     let mut run =

@@ -14,6 +14,8 @@
 //!   ([`World::recycle`]; pairs with a hook are always found anew).
 
 use super::bodies::{Body, Combined, Form, Frictions, Role};
+use base::error::{InputError, JsonPath};
+use model::assembly::Block;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use rapier3d::{
     math::{Pose, Rotation, Vector},
@@ -121,9 +123,36 @@ struct Seam {
     outer: Vec<Vector>,
 }
 
+/// What the engine does not take.
+#[derive(Debug)]
+pub enum Refused {
+    /// A piece of this body.
+    Piece(usize),
+    /// The number of threads, and why.
+    Threads(String),
+}
+
+impl Refused {
+    /// This as an error about the block, by its name.
+    pub fn told(self, blocks: &[Block]) -> InputError {
+        match self {
+            Self::Threads(why) => {
+                InputError::at(JsonPath::root(), format!("the engine got no threads: {why}"))
+                    .hint("give --threads 1")
+            }
+            Self::Piece(body) => {
+                let Block { id, path, .. } = &blocks[body];
+                let text = format!("the engine does not take a piece of block {id:?}");
+                InputError::at(path.clone(), text)
+                    .hint("give it a simpler shape, or ask `voussoir assess`")
+            }
+        }
+    }
+}
+
 impl<'a> World<'a> {
     /// A world; the error says what the engine does not take.
-    pub fn new(list: &[Body], frictions: &'a Frictions<'a>, step: Step) -> Result<Self, String> {
+    pub fn new(list: &[Body], frictions: &'a Frictions<'a>, step: Step) -> Result<Self, Refused> {
         let softness = softness(step);
         let combined = frictions.combined(list);
         let parameters = IntegrationParameters {
@@ -142,7 +171,7 @@ impl<'a> World<'a> {
         let mut pipeline = PhysicsPipeline::new();
         pipeline
             .configure_thread_pool(step.threads)
-            .map_err(|e| format!("the engine got no threads: {e}"))?;
+            .map_err(|e| Refused::Threads(e.to_string()))?;
         let mut world = Self {
             hooks: Hooks { frictions, shapes: Vec::new(), pointed: step.pointed },
             parameters,
@@ -174,7 +203,7 @@ impl<'a> World<'a> {
         body: &Body,
         restitution: f64,
         combined: Option<Combined>,
-    ) -> Result<(), String> {
+    ) -> Result<(), Refused> {
         let pose = Pose::from_parts(vector(body.center), Rotation::IDENTITY);
         let builder =
             if body.support { RigidBodyBuilder::fixed() } else { RigidBodyBuilder::dynamic() };
@@ -185,7 +214,7 @@ impl<'a> World<'a> {
             .insert(builder.pose(pose).can_sleep(false).additional_mass_properties(mass));
         self.handles.push(handle);
         for shape in &body.shapes {
-            let refused = || format!("the engine does not take a piece of block number {index}");
+            let refused = || Refused::Piece(index);
             let collider = match &shape.form {
                 Form::Ball { at, radius } => {
                     ColliderBuilder::ball(*radius).translation(vector(*at))

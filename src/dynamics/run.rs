@@ -258,10 +258,8 @@ impl Stage<'_> {
             restitution: 0.0,
             pointed: false,
         };
-        let world = World::new(self.bodies, self.frictions, step).map_err(|text| {
-            InputError::at(Default::default(), text)
-                .hint("give the block a simpler shape, or ask `voussoir assess`")
-        })?;
+        let world = World::new(self.bodies, self.frictions, step)
+            .map_err(|refused| refused.told(&self.model.assembly.blocks))?;
         Ok((world, dt))
     }
 

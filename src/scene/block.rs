@@ -91,6 +91,13 @@ pub enum Shape {
         /// The spheres.
         spheres: Vec<Ball>,
     },
+    /// An unbounded plane through the origin, solid behind it: ground or wall. Supports only. It is
+    /// made a slab that reaches three times as far as the other blocks.
+    Plane {
+        /// Direction out of the ground, of any length; [0, 0, 1] where none is given.
+        #[serde(default = "up", skip_serializing_if = "is_up")]
+        normal: [f64; 3],
+    },
 }
 
 /// A sphere of a clump.
@@ -126,6 +133,14 @@ fn one() -> f64 {
 
 fn is_one(scale: &f64) -> bool {
     *scale == 1.0
+}
+
+fn up() -> [f64; 3] {
+    [0.0, 0.0, 1.0]
+}
+
+fn is_up(normal: &[f64; 3]) -> bool {
+    *normal == up()
 }
 
 fn is_origin(at: &[f64; 3]) -> bool {

@@ -177,6 +177,13 @@ pub(super) fn syntax_error(
     }
 }
 
+/// Kinds of shapes, which are often written where the key "shape" belongs.
+const SHAPES: [&str; 7] = ["box", "polyhedron", "mesh", "prism", "sphere", "clump", "plane"];
+
+/// Kinds of shapes that other programs have, and what stands in for them.
+const ROUND: [&str; 5] = ["cylinder", "capsule", "cone", "ellipsoid", "disc"];
+const STAND_IN: &str = "spheres are the only round shapes: what stands on flat ends is a \"prism\" or \"polyhedron\" with as many sides as matter (it does not roll), what rolls is a \"clump\" of spheres";
+
 /// JSON whose keys or types are not those expected.
 fn data_error(source: &Source, path: JsonPath, error: &serde_json::Error) -> InputError {
     let message = bare(error);
@@ -184,14 +191,20 @@ fn data_error(source: &Source, path: JsonPath, error: &serde_json::Error) -> Inp
     let result = if message.starts_with("unknown field") {
         at_key = true;
         let key = last_key(&path).unwrap_or_default();
-        let hint = suggest(&key, expected(&message))
-            .map_or("remove it".into(), |s| format!("{s} (or remove it)"));
+        let listed: Vec<&str> = expected(&message).collect();
+        let hint = match listed.contains(&"shape") && SHAPES.contains(&key.as_str()) {
+            true => format!("write \"shape\": {{ \"{key}\": {{ … }} }}"),
+            false => {
+                suggest(&key, listed).map_or("remove it".into(), |s| format!("{s} (or remove it)"))
+            }
+        };
         InputError::at(path, "unknown key").hint(hint)
     } else if let Some(rest) = message.strip_prefix("unknown variant `") {
         let word = rest.rsplit_once("`, expected").map_or(rest, |(w, _)| w);
         let inner = path.key(word);
         at_key = source.locate(&inner).is_some();
-        let hint = suggest(word, expected(&message));
+        let hint = ROUND.contains(&word).then(|| STAND_IN.into());
+        let hint = hint.or_else(|| suggest(word, expected(&message)));
         let error =
             InputError::at(if at_key { inner } else { path }, format!("unknown kind {word:?}"));
         InputError { hint, ..error }

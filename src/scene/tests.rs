@@ -119,6 +119,14 @@ fn wrong_text_is_refused_with_place_and_remedy() {
             "s.json:2:38: blocks[0].shape.bix: unknown kind \"bix\"; hint: did you mean \"box\"?",
         ),
         (
+            r#" "blocks": [ { "id": "a", "shape": { "cylinder": { "radius": 1 } } } ] }"#,
+            "s.json:2:38: blocks[0].shape.cylinder: unknown kind \"cylinder\"; hint: spheres are the only round shapes: what stands on flat ends is a \"prism\" or \"polyhedron\" with as many sides as matter (it does not roll), what rolls is a \"clump\" of spheres",
+        ),
+        (
+            r#" "blocks": [ { "id": "a", "box": { "size": [1, 1, 1] } } ] }"#,
+            "s.json:2:27: blocks[0].box: unknown key; hint: write \"shape\": { \"box\": { … } }",
+        ),
+        (
             r#" "blocks": [ { "id": "a", "shape": "box" } ] }"#,
             "s.json:2:36: blocks[0].shape: \"box\" lacks its values; hint: write { \"box\": { … } }",
         ),
@@ -227,6 +235,7 @@ fn shape() -> impl Strategy<Value = Shape> {
         (prop::collection::vec([number(), number()], 0..5), number())
             .prop_map(|(polygon, depth)| Shape::Prism { polygon, depth }),
         number().prop_map(|radius| Shape::Sphere { radius }),
+        vector().prop_map(|normal| Shape::Plane { normal }),
         prop::collection::vec((vector(), number()), 0..4).prop_map(|list| Shape::Clump {
             spheres: list.into_iter().map(|(at, radius)| Ball { at, radius }).collect()
         }),

@@ -136,6 +136,18 @@ impl Solid {
         }
     }
 
+    /// The box around it, m: least and greatest coordinates.
+    pub fn extent(&self) -> (Vector3<f64>, Vector3<f64>) {
+        let ball = |(c, r): &(Vector3<f64>, f64)| (c.add_scalar(-r), c.add_scalar(*r));
+        let boxes: Vec<_> = match self {
+            Self::Sphere { center, radius } => vec![ball(&(*center, *radius))],
+            Self::Clump { balls, .. } => balls.iter().map(ball).collect(),
+            Self::Polyhedron(p) => p.vertices.iter().map(|v| (*v, *v)).collect(),
+        };
+        let none = Vector3::repeat(f64::INFINITY);
+        boxes.into_iter().fold((none, -none), |(l, h), (low, high)| (l.inf(&low), h.sup(&high)))
+    }
+
     /// Whether the surface is made of spheres alone, so that whatever touches it touches it at
     /// points.
     pub fn is_round(&self) -> bool {

@@ -230,6 +230,7 @@ fn is_finite(block: &BlockSpec) -> bool {
             }
             Shape::Prism { polygon, depth } => depth.is_finite() && polygon.iter().all(|p| all(p)),
             Shape::Sphere { radius } => radius.is_finite(),
+            Shape::Plane { normal } => all(normal),
             Shape::Clump { spheres } => spheres.iter().all(|b| all(&b.at) && b.radius.is_finite()),
         }
 }

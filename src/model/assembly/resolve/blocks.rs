@@ -3,7 +3,7 @@
 use super::{
     check,
     origin::Origin,
-    shape::{self, Frame},
+    shape::{self, Around, Frame},
 };
 use crate::assembly::{Block, Elastic, Gyration, Mend};
 use base::{
@@ -34,25 +34,25 @@ pub(super) fn resolve(
         )?;
         elastic_moduli(material, &root.key("materials").key(name.as_str()))?;
     }
+    // With each block its density, where somebody chose one.
     let mut blocks = Vec::with_capacity(scene.blocks.len());
     let mut mended = Mended::default();
-    let free = middle_of_free(scene);
-    // Per block: its density, where somebody chose one.
-    let mut chosen = Vec::with_capacity(scene.blocks.len());
+    let mut around = Around { free: middle_of_free(scene), bounds: None };
     let mut add = |spec: &BlockSpec, place: &Origin| -> Result<(), InputError> {
         if is_over() {
             let text = format!("the time was up after {} blocks had been resolved", blocks.len());
             return Err(InputError::at(JsonPath::root(), text).hint("allow more time"));
         }
-        let (block, density) = block(scene, spec, place, free, &mut mended)?;
-        blocks.push(block);
-        chosen.push(density);
+        blocks.push(block(scene, spec, place, around, &mut mended)?);
         Ok(())
     };
     let mut count = scene.blocks.len();
     few(count, &root.key("blocks"))?;
-    for (i, spec) in scene.blocks.iter().enumerate() {
-        add(spec, &Origin { path: root.key("blocks").index(i), generated: None })?;
+    // Planes are as large as the others need, so they come last and are put back in their places.
+    let is_plane = |spec: &BlockSpec| matches!(spec.shape, Shape::Plane { .. });
+    let origin = |i| Origin { path: root.key("blocks").index(i), generated: None };
+    for (i, spec) in scene.blocks.iter().enumerate().filter(|(_, spec)| !is_plane(spec)) {
+        add(spec, &origin(i))?;
     }
     for (i, template) in scene.templates.iter().enumerate() {
         let path = root.key("templates").index(i);
@@ -63,6 +63,13 @@ pub(super) fn resolve(
             add(&spec, &Origin { path: path.clone(), generated: Some(spec.id.clone()) })?;
         }
     }
+    let bounds = blocks.iter().map(|(b, _)| b.solid.extent());
+    around.bounds = bounds.reduce(|(l, h), (low, high)| (l.inf(&low), h.sup(&high)));
+    for (i, spec) in scene.blocks.iter().enumerate().filter(|(_, spec)| is_plane(spec)) {
+        let plane = block(scene, spec, &origin(i), around, &mut mended)?;
+        blocks.insert(i, plane);
+    }
+    let (blocks, chosen): (Vec<_>, Vec<_>) = blocks.into_iter().unzip();
     let mut findings = mended.findings();
     findings.extend(assumed_density(scene, &blocks, &chosen));
     Ok((blocks, findings))
@@ -113,12 +120,12 @@ fn block(
     scene: &Scene,
     spec: &BlockSpec,
     place: &Origin,
-    free: Vector3<f64>,
+    around: Around,
     mended: &mut Mended,
 ) -> Result<(Block, Option<f64>), InputError> {
     let root = JsonPath::root();
     let frame = Frame::new(spec, place)?;
-    let body = shape::body(spec, &frame, place, free)?;
+    let body = shape::body(spec, &frame, place, around)?;
     for mend in &body.mended {
         mended.add(mend, &spec.id);
     }

@@ -33,6 +33,12 @@ impl Frame {
         MassProperties { centroid: self.apply(own.centroid), inertia, ..own }
     }
 
+    /// The point of the block's own frame that lies at a point of the scene.
+    fn back(&self, point: Vector3<f64>) -> Vector3<f64> {
+        let moved = point - self.shift;
+        self.turn.map_or(moved, |turn| turn.inverse() * moved)
+    }
+
     pub(super) fn apply(&self, point: Vector3<f64>) -> Vector3<f64> {
         self.turn.map_or(point, |turn| turn * point) + self.shift
     }
@@ -46,12 +52,21 @@ pub(super) struct Geometry {
     pub(super) mended: Vec<Mend>,
 }
 
-/// The geometry of a block in scene coordinates; `free` is where the free blocks are, more or less.
+/// Where the other blocks are, as far as a block has to know.
+#[derive(Clone, Copy)]
+pub(super) struct Around {
+    /// The middle of the free blocks, more or less, m.
+    pub(super) free: Vector3<f64>,
+    /// The box around all blocks that have bounds, m.
+    pub(super) bounds: Option<(Vector3<f64>, Vector3<f64>)>,
+}
+
+/// The geometry of a block in scene coordinates.
 pub(super) fn body(
     spec: &BlockSpec,
     frame: &Frame,
     place: &Origin,
-    free: Vector3<f64>,
+    around: Around,
 ) -> Result<Geometry, InputError> {
     let path = JsonPath::root().key("shape");
     match &spec.shape {
@@ -168,6 +183,19 @@ pub(super) fn body(
                         faces.clone(),
                     )
                 }
+                Shape::Plane { normal } => {
+                    let path = path.key("plane");
+                    if !spec.support {
+                        return place.check(Err(InputError::at(
+                            path,
+                            "a plane cannot be a free block",
+                        )
+                        .hint("add \"support\": true, or give the block a \"box\"")));
+                    }
+                    let normal = place.check(check::direction(*normal, &path.key("normal")))?;
+                    let (vertices, faces) = slab(frame, normal, around.bounds);
+                    ("plane", vertices, faces)
+                }
                 #[expect(
                     clippy::unreachable,
                     reason = "balls are handled before the match, which the compiler cannot see"
@@ -187,7 +215,7 @@ pub(super) fn body(
                 .hint("lengths are in m")));
             }
             let made = match spec.support {
-                true => Polyhedron::of_support(vertices, &faces, free),
+                true => Polyhedron::of_support(vertices, &faces, around.free),
                 false => Polyhedron::from_faces(vertices, &faces),
             };
             let (polyhedron, mended) = place.check(made.map_err(|e| {
@@ -206,6 +234,32 @@ pub(super) fn diagonal(points: &[Vector3<f64>]) -> f64 {
     let Some(first) = points.first() else { return 0.0 };
     let (low, high) = points.iter().fold((*first, *first), |(l, h), p| (l.inf(p), h.sup(p)));
     (high - low).norm()
+}
+
+/// How far the slab of a plane reaches from the middle of the other blocks, × the half diagonal of
+/// the box around them. Below 1 a block could stand beside it; far above, pictures show little but
+/// ground.
+const REACH: f64 = 3.0;
+
+/// How thick it is, × that distance. Blocks touch its face alone.
+const DEPTH: f64 = 0.1;
+
+/// A plane as a slab in its own frame, below all that has bounds in scene coordinates.
+fn slab(
+    frame: &Frame,
+    normal: Vector3<f64>,
+    bounds: Option<(Vector3<f64>, Vector3<f64>)>,
+) -> prism::Surface {
+    let (middle, half) = bounds
+        .map_or((frame.shift, 1.0), |(low, high)| (0.5 * (low + high), 0.5 * (high - low).norm()));
+    let middle = frame.back(middle);
+    let middle = middle - normal * middle.dot(&normal);
+    let reach = REACH * half;
+    let turn = Rotation3::rotation_between(&Vector3::z(), &normal)
+        .unwrap_or_else(|| Rotation3::from_axis_angle(&Vector3::x_axis(), PI));
+    let (vertices, faces) = cuboid([2.0 * reach, 2.0 * reach, DEPTH * reach]);
+    let below = Vector3::z() * (0.5 * DEPTH * reach);
+    (vertices.into_iter().map(|v| middle + turn * (v - below)).collect(), faces)
 }
 
 fn cuboid(size: [f64; 3]) -> prism::Surface {

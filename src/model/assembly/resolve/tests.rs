@@ -40,6 +40,24 @@ fn codes(assembly: &Assembly) -> Vec<FindingCode> {
 }
 
 #[test]
+fn a_plane_lies_where_it_is_said_and_reaches_beyond_every_block() {
+    for (normal, turn) in
+        [([0.0, 0.0, 2.0], 0.0), ([0.0, 1.0, 0.0], 90.0), ([0.0, 0.0, -1.0], 180.0)]
+    {
+        let ground = format!(
+            r#"{{ "id": "ground", "shape": {{ "plane": {{ "normal": {normal:?} }} }}, "at": [1, 2, 3], "rotation_deg": {{ "axis": [1, 0, 0], "angle": {turn} }}, "support": true }},"#
+        );
+        let far = r#"{ "id": "far", "shape": { "sphere": { "radius": 1 } }, "at": [500, -40, 4] }"#;
+        let text = text(&format!("{ground}{TOP},{far}"), "");
+        let assembly = assembly(&text);
+        assert_eq!(assembly.blocks[1].id, "ground", "in its place among the blocks");
+        let (low, high) = assembly.blocks[1].solid.extent();
+        assert!((high.z - 3.0).abs() < 1e-9 && low.z < 2.0, "normal {normal:?}: {low} {high}");
+        assert!(low.x < -500.0 && high.x > 1000.0 && low.y < -500.0 && high.y > 500.0);
+    }
+}
+
+#[test]
 fn blocks_that_mean_nothing_are_refused_with_place_and_remedy() {
     let cases = [
         (
@@ -93,6 +111,14 @@ fn blocks_that_mean_nothing_are_refused_with_place_and_remedy() {
         (
             r#"{ "id": "top", "shape": { "polyhedron": { "vertices": [[0,0,0],[1,0,0]], "faces": [[0,1]] } } }"#,
             "s.json:4:84: blocks[1].shape.polyhedron.faces[0]: a face needs at least 3 vertices, got 2",
+        ),
+        (
+            r#"{ "id": "top", "shape": { "plane": {} } }"#,
+            "s.json:4:36: blocks[1].shape.plane: a plane cannot be a free block; hint: add \"support\": true, or give the block a \"box\"",
+        ),
+        (
+            r#"{ "id": "top", "shape": { "plane": { "normal": [0, 0, 0] } }, "support": true }"#,
+            "s.json:4:48: blocks[1].shape.plane.normal: must not be zero; hint: a direction, of any length",
         ),
         (
             r#"{ "id": "top", "shape": { "prism": { "polygon": [[0,0],[1,0]], "depth": 1 } } }"#,
