@@ -21,7 +21,7 @@ use super::{program, tracker::Tracker};
 use crate::{Control, assess, repair};
 use base::tolerance;
 use check::{
-    path::Spot,
+    path::{Side, Spot},
     terms::Law,
     verdict::{Forces, Rate, Verdict, certificate, claim, exact::existence},
 };
@@ -35,12 +35,12 @@ use solve::{
 };
 
 /// What a joint does over a step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum JointChange {
     /// It touches nowhere.
     Open,
-    /// It touches along an edge or at a point.
-    Hinged,
+    /// It touches along an edge or at a point, on the face of one block or of neither.
+    Hinged(Side),
     /// It touches all over.
     Closed,
 }
@@ -130,6 +130,8 @@ struct Row {
     mu: f64,
     /// The way so far; normal part: the gap.
     so_far: Vector3<f64>,
+    /// Whether it was apart where the step began: then it slides as far as it closes.
+    was_apart: bool,
 }
 
 /// The displaced scene of one program.
@@ -269,6 +271,7 @@ impl Tracker<'_> {
                 let face = &model.interfaces.list[b.interface];
                 let n = face.frame.n;
                 let mut so_far = Vector3::zeros();
+                let mut began = 0.0;
                 for p in b.points {
                     let spot = &stage.spots[b.interface].1[p];
                     let slid = way(goals, &from.poses, face.b, &spot.at)
@@ -277,12 +280,16 @@ impl Tracker<'_> {
                         way(goals, poses, face.b, &spot.at) - way(goals, poses, face.a, &spot.at);
                     let gap = spot.gap + n.dot(&parts);
                     so_far += (slid + n * (gap - n.dot(&slid))) * 0.5;
+                    began += 0.5 * (gap - n.dot(&slid));
                 }
                 let mu = match face.law.friction {
                     Friction::Coefficient(mu) => mu,
                     Friction::Infinite => 0.0,
                 };
-                Row { interface: b.interface, column: b.column, n, mu, so_far }
+                let small = 1e-2 * tolerance::JOINT_CLOSED;
+                let size = self.carried.size(stage.spots[b.interface].0);
+                let was_apart = began.abs() > small * size;
+                Row { interface: b.interface, column: b.column, n, mu, so_far, was_apart }
             })
             .collect();
         let at = |r: &Row, k: usize| {
@@ -368,7 +375,7 @@ impl Tracker<'_> {
                 .zip(&statics.bearings)
                 .zip(&slid)
                 .flat_map(|((r, b), slip)| {
-                    let slides = *slip > NO_SLIP * r.mu;
+                    let slides = r.was_apart || *slip > NO_SLIP * r.mu;
                     b.points.map(|p| (r.interface, p, slides))
                 })
                 .filter(|(c, p, _)| forces[*c][*p].force.norm() > NO_FORCE * largest)
@@ -577,19 +584,19 @@ impl Tracker<'_> {
         poses: &[Pose],
         slides: impl Fn(usize) -> bool,
     ) -> Vec<(JointChange, bool)> {
-        (0..self.carried.joints.len())
-            .map(|k| {
-                let spots = self.carried.spots(poses, k);
-                let small = tolerance::JOINT_CLOSED * self.carried.size(k);
-                let closed = spots.iter().filter(|s| s.gap.abs() <= small).count();
-                let how = match closed {
-                    0 => JointChange::Open,
-                    n if n == spots.len() => JointChange::Closed,
-                    _ => JointChange::Hinged,
-                };
-                (how, slides(k))
-            })
-            .collect()
+        let touch = |k: usize| {
+            let spots = self.carried.spots(poses, k);
+            let small = tolerance::JOINT_CLOSED * self.carried.size(k);
+            let closed: Vec<Side> =
+                spots.iter().filter(|s| s.gap.abs() <= small).map(|s| s.side).collect();
+            match closed[..] {
+                [] => JointChange::Open,
+                _ if closed.len() == spots.len() => JointChange::Closed,
+                [side, ..] if closed.iter().all(|s| *s == side) => JointChange::Hinged(side),
+                _ => JointChange::Hinged(Side::Neither),
+            }
+        };
+        (0..self.carried.joints.len()).map(|k| (touch(k), slides(k))).collect()
     }
 }
 

@@ -81,6 +81,10 @@ pub struct GoesOn<'a> {
 /// Steps of the curve, over the size of the scene.
 const STEP: f64 = 2e-3;
 
+/// How far a control point is followed, × the diagonal of the box around the free blocks that move.
+/// What turns over goes no farther than twice as far; what slides would never end.
+const FAR: f64 = 2.0;
+
 /// Follows a scene whose supports move.
 ///
 /// # Errors
@@ -115,11 +119,11 @@ pub fn settle(
     }
     let begun = begin(model, &drive, &options.from)?;
     let from = later(model, &drive, goes_on.as_ref(), begun.clone())?;
-    let how = |size: f64| Follow {
+    let how = |own: &Model| Follow {
         drive: drive.clone(),
         until: 1.0,
         at: options.at.clone(),
-        step: STEP * size / speed,
+        step: STEP * size(own) / speed,
         from: from.clone(),
         dry: false,
     };
@@ -145,11 +149,11 @@ pub fn push(
     let drive = Drive::push(&model.assembly, options)?;
     let begun = begin(model, &drive, &options.from)?;
     let from = later(model, &drive, goes_on.as_ref(), begun.clone())?;
-    let how = |size: f64| Follow {
+    let how = |own: &Model| Follow {
         drive: drive.clone(),
-        until: size + begun.as_ref().map_or(0.0, |f| f.0),
+        until: FAR * bodies(own) + begun.as_ref().map_or(0.0, |f| f.0),
         at: options.at.clone(),
-        step: STEP * size,
+        step: STEP * size(own),
         from: from.clone(),
         dry: control.law == Law::Coulomb,
     };
@@ -258,15 +262,22 @@ pub(super) fn followable(model: &Model) -> Result<(), InputError> {
     Ok(())
 }
 
-/// `how` to follow what has this size, m.
+/// Diagonal of the box around the free blocks, m.
+fn bodies(model: &Model) -> f64 {
+    let extents = model.assembly.free().map(|i| model.assembly.blocks[i].solid.extent());
+    let all = extents.reduce(|(l, h), (low, high)| (l.inf(&low), h.sup(&high)));
+    all.map_or(0.0, |(low, high)| (high - low).norm())
+}
+
+/// `how` to follow what moves.
 fn answer(
     model: &Model,
-    how: &dyn Fn(f64) -> Follow,
+    how: &dyn Fn(&Model) -> Follow,
     control: &Control,
     goes_on: Option<GoesOn>,
 ) -> Followed {
-    let moved = Moved::of(model, &how(1.0).drive, control);
-    let how = &how(size(moved.as_ref().map_or(model, |m| &m.own)));
+    let moved = Moved::of(model, &how(model).drive, control);
+    let how = &how(moved.as_ref().map_or(model, |m| &m.own));
     let carried = Carried::new(model);
     let prove = |point: &Point| proof(&carried, how, point, control);
     // What supports carry as they begin to move is said of the start.
@@ -347,13 +358,16 @@ fn proof(carried: &Carried, how: &Follow, point: &Point, control: &Control) -> P
         }
         let l = limit(model, &Control { law: Law::Associative, ..*control });
         return match &point.touch {
-            None => PointProof::of(model, &l),
+            None => {
+                let forces = carried_forces(carried, &found, point, &poses);
+                PointProof::of(model, &l).moving(forces)
+            }
             Some(touch) => dry_proof(carried, &found, (point, touch), &l, control),
         };
     }
     if let Some(touch) = &point.touch {
         let at = |forces: &Forces| slid_forces(carried, &found, forces, touch);
-        let motion = point.proving.as_ref().and_then(|_| balanced(model, at(&point.forces)));
+        let motion = point.proving.as_ref().and_then(|_| balanced(model, at(&point.forces), 0.0));
         let proving = at(point.proving.as_ref().unwrap_or(&point.forces));
         let proof = stands_or_falls(model, proving, &point.rates, control);
         return PointProof { motion: motion.or(proof.motion), ..proof };
@@ -418,8 +432,8 @@ fn linkage_proof(
 }
 
 /// Forces of a motion, where they are ones: without members, and balanced as dry friction leaves it.
-fn balanced(model: &Model, forces: Forces) -> Option<Forces> {
-    let left = || certificate::statics(model, &forces, 0.0).unbalance;
+fn balanced(model: &Model, forces: Forces, load_factor: f64) -> Option<Forces> {
+    let left = || certificate::statics(model, &forces, load_factor).unbalance;
     let are = model.interfaces.members.is_empty() && left() <= tolerance::DRY_BALANCE;
     are.then_some(forces)
 }
@@ -436,7 +450,7 @@ fn stands_or_falls(model: &Model, forces: Forces, rates: &[Rate], control: &Cont
         if stands.claim.is_some() {
             return stands;
         }
-        let motion = balanced(model, forces.clone());
+        let motion = balanced(model, forces.clone(), 0.0);
         if let Some(better) = existence::improved(model, &forces, 0.0) {
             return PointProof { motion, ..proved(Claim::Stable, better, rest()) };
         }
@@ -467,10 +481,10 @@ fn dry_proof(
     let (model, value) = (&found.model, point.load_factor);
     let width = tolerance::LOAD_FACTOR_WIDTH * value.abs()
         + tolerance::LOAD_FACTOR_FLOOR * claim::natural_factor(&model.assembly);
-    if bound.claim().is_some() && bound.value.is_some_and(|b| (b - value).abs() <= width) {
-        return PointProof::of(model, bound);
-    }
     let forces = slid_forces(carried, found, &point.forces, touch);
+    if bound.claim().is_some() && bound.value.is_some_and(|b| (b - value).abs() <= width) {
+        return PointProof::of(model, bound).moving(forces);
+    }
     let own =
         Side { claim: Some(Claim::DryLoadFactor { value }), forces, rates: point.rates.clone() };
     let proved = Proved::new(model, own);
@@ -509,6 +523,15 @@ fn slid_forces(carried: &Carried, found: &Displaced, own: &Forces, touch: &Touch
 }
 
 impl PointProof {
+    /// A load factor, with the forces of the motion beside those that prove it, where these balance
+    /// the same loads.
+    fn moving(self, mut forces: Forces) -> Self {
+        let Some(Claim::LoadFactor { value, .. }) = self.claim else { return self };
+        repair::cut(&self.model.interfaces, &mut forces);
+        let motion = balanced(&self.model, forces, value);
+        Self { motion, ..self }
+    }
+
     fn of<T: Claims>(model: &Model, proved: &Proved<T>) -> Self {
         let Evidence { forces, rates, .. } = proved.evidence();
         Self {

@@ -40,6 +40,19 @@ pub struct Follow {
     pub dry: bool,
 }
 
+impl Follow {
+    /// All of the way was followed.
+    pub(super) fn ends(&self) -> End {
+        match self.drive.is_push() {
+            false => End::Reached,
+            true => End::Stuck(
+                "it still resists where the control point has gone twice the size of what moves"
+                    .into(),
+            ),
+        }
+    }
+}
+
 /// Gaps below this × the size of the smaller block overlap. Nearer to zero: rounding of the poses is
 /// taken for a joint that closes. Farther: joints sink in before they are seen to close, up to
 /// [`tolerance::JOINT_CLOSED`](base::tolerance::JOINT_CLOSED), where they are no pose any more.
@@ -248,7 +261,7 @@ impl Tracker<'_> {
         let mut passed = Passed::new(here.0, here.1.at.load_factor);
         loop {
             if here.0 >= how.until {
-                return Err(End::Reached);
+                return Err(how.ends());
             }
             if self.deadline.is_over() {
                 return Err(stuck("the time was over"));
@@ -305,7 +318,7 @@ impl Tracker<'_> {
             let there = (value, trial);
             let load_factor = there.1.at.load_factor;
             let wanted = how.at.contains(&value) || value == how.until;
-            if how.drive.is_push() && how.at.is_empty() && passed.go(value, load_factor) {
+            if how.drive.is_push() && passed.go(value, load_factor) {
                 path.points.extend(point(here));
                 path.between -= 1;
                 (self.hears)(&|| path.clone());

@@ -1,7 +1,7 @@
 //! Motions that slide: from step to step under dry friction.
 
 use super::{
-    advance::{Rested, live_power},
+    advance::{JointChange, Rested, live_power},
     branch::{Follow, Trial, WIDTH},
     linkage::Linkage,
     passed::{Passed, turned_far},
@@ -97,7 +97,7 @@ impl Tracker<'_> {
         let (mut in_a_row, mut all) = (0, 0);
         for _ in 0..STEPS {
             if here.value >= how.until {
-                return Ok(End::Reached);
+                return Ok(how.ends());
             }
             if self.deadline.is_over() {
                 return Ok(End::Stuck("the time was over".into()));
@@ -136,7 +136,7 @@ impl Tracker<'_> {
             let next = if next.joints == here.joints || !few {
                 next
             } else {
-                self.locate(&here, next, EVENT * how.step, path)
+                self.locate(&here, next, how.step, path)
             };
             let changed = next.joints != here.joints;
             if changed {
@@ -145,8 +145,8 @@ impl Tracker<'_> {
             if let Some(text) = (self.meets)(&next.poses, true) {
                 return Ok(End::Stuck(text));
             }
-            let (is_push, asked, points) = (how.drive.is_push(), &how.at, path.points.len());
-            if is_push && asked.is_empty() && passed.go(next.value, next.load_factor) {
+            let (is_push, points) = (how.drive.is_push(), path.points.len());
+            if is_push && passed.go(next.value, next.load_factor) {
                 let last = path.points.last();
                 if last.is_none_or(|p| p.value < here.value) {
                     path.points.push(self.slid_point(&here));
@@ -173,13 +173,26 @@ impl Tracker<'_> {
     }
 
     /// Between two poses whose joints differ, the first that differs; the last that does not becomes
-    /// a point.
-    fn locate(&self, low: &Rested, high: Rested, width: f64, path: &mut Path) -> Rested {
+    /// a point. Where another corner touches than before, at the next pose it lay apart by what it
+    /// slid since, so that this place is known to the shortest step.
+    fn locate(&self, low: &Rested, high: Rested, step: f64, path: &mut Path) -> Rested {
         let (mut low, mut high) = (low.clone(), high);
         let joints = low.joints.clone();
-        while high.value - low.value > width {
+        let touch = |at: &Rested| -> Vec<JointChange> { at.joints.iter().map(|j| j.0).collect() };
+        let before = touch(&low);
+        loop {
+            let width = high.value - low.value;
+            let touches = touch(&high) != before;
+            if width <= if touches { SHORTEST } else { EVENT } * step {
+                break;
+            }
             let Some(middle) = self.advance(&low, 0.5 * (low.value + high.value)) else { break };
-            if middle.joints == joints { low = middle } else { high = middle }
+            // Slips of steps as short as these are rounding.
+            let same = match width <= EVENT * step {
+                true => touch(&middle) == before,
+                false => middle.joints == joints,
+            };
+            if same { low = middle } else { high = middle }
         }
         if path.points.last().is_none_or(|p| p.value < low.value) && !low.touch.is_empty() {
             path.points.push(self.slid_point(&low));

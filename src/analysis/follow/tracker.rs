@@ -73,7 +73,7 @@ impl<'a> Tracker<'a> {
         let basis = place.free.clone();
         let count = basis.ncols();
         if count == 0 {
-            let load_factor = self.load_factor(linkage, &place, &linkage.free(&place, None));
+            let load_factor = self.load_factor(linkage, &place);
             return Some(At { place, load_factor });
         }
         let wide = if self.drive.is_push() { linkage.free(&place, None) } else { basis.clone() };
@@ -86,7 +86,7 @@ impl<'a> Tracker<'a> {
             let (r, scale) = residual(&place);
             let size = r.amax() / scale;
             if size <= 1e-14 || (size <= 1e-10 && size >= 0.5 * best) {
-                let load_factor = self.load_factor(linkage, &place, &wide);
+                let load_factor = self.load_factor(linkage, &place);
                 return Some(At { place, load_factor });
             }
             best = best.min(size);
@@ -131,11 +131,13 @@ impl<'a> Tracker<'a> {
         (a + b * l, scale)
     }
 
-    /// The load factor in equilibrium with a linkage.
-    fn load_factor(&self, linkage: &Linkage, place: &Configuration, free: &DMatrix<f64>) -> f64 {
+    /// The load factor in equilibrium with a linkage, by the free motions of this very place: those
+    /// of a place a step away give one that is off by the step.
+    fn load_factor(&self, linkage: &Linkage, place: &Configuration) -> f64 {
         if !self.drive.is_push() {
             return 0.0;
         }
+        let free = &linkage.free(place, None);
         let [dead, live] = self.loads(linkage, &place.poses);
         let (a, b) = (linkage.power(place, &dead, free), linkage.power(place, &live, free));
         -a.dot(&b) / b.dot(&b)

@@ -154,9 +154,7 @@ impl<'a> Carried<'a> {
         });
         displaced.deepest = (0..slid.len())
             .filter_map(|k| {
-                // Where no corner is where it was, copies of corners say nothing about faces.
-                let by_faces = self.may_slide(k) && (slid[k].is_some() || closed[k].is_empty());
-                let gap = self.depth(poses, k, by_faces)?;
+                let gap = self.depth(poses, k, self.sinks_by_faces(poses, k))?;
                 Some(Corner { interface: k, point: 0, gap, apart: gap.abs() })
             })
             .min_by(|a, b| a.gap.total_cmp(&b.gap));

@@ -102,6 +102,14 @@ impl Carried<'_> {
         spots.iter().any(closed).then_some(spots)
     }
 
+    /// Whether the faces of a joint say how deep it has sunk: it has slid there, or no corner is
+    /// where it was, so that the copies of corners say nothing.
+    pub fn sinks_by_faces(&self, poses: &[Pose], interface: usize) -> bool {
+        let mut points = 0..self.joints[interface].points.len();
+        let stays = |p: usize| self.corner(poses, interface, p).apart <= tolerance::JOINT_CLOSED;
+        self.may_slide(interface) && (self.slid(poses, interface).is_some() || !points.any(stays))
+    }
+
     /// How deep a joint has sunk, over the size of its smaller block, < 0 where the blocks overlap:
     /// by its carried corners, or where it may have slid by its faces.
     pub fn depth(&self, poses: &[Pose], interface: usize, by_faces: bool) -> Option<f64> {

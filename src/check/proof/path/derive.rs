@@ -215,7 +215,7 @@ fn status(
         {
             (PathStatus::Falls, Some(stands.value), Some(falls.value))
         }
-        (EndEvidence::Reached, _) if whole && (drive.is_push() || last == Some(1.0)) => {
+        (EndEvidence::Reached, _) if whole && !drive.is_push() && last == Some(1.0) => {
             (PathStatus::Reached, last, None)
         }
         (EndEvidence::Vanishes, _) if whole && drive.is_push() => {
@@ -271,7 +271,7 @@ fn point(
     };
     let proved = proven.as_ref().filter(|p| p.claim.is_some());
     let falls = proved.filter(|_| claim == Some(Claim::Unstable)).map(|p| &p.rates[..]);
-    let motion = motion(&mut f, model, e)?;
+    let motion = motion(&mut f, model, load_factor.unwrap_or(0.0), e)?;
     let rests = proved.filter(|_| claim != Some(Claim::Unstable));
     let rests = rests.map(|p| motion.as_ref().unwrap_or(&p.forces));
     let seen = Seen::new(carried, (e.value, poses.clone()), (model, &displaced.from), rests, falls);
@@ -303,12 +303,17 @@ fn point(
 
 /// The forces that the motion has, where they are given: they balance the loads as those of a motion
 /// under dry friction do.
-fn motion(f: &mut Findings, model: &Model, e: &PointEvidence) -> Result<Option<Forces>, String> {
+fn motion(
+    f: &mut Findings,
+    model: &Model,
+    load_factor: f64,
+    e: &PointEvidence,
+) -> Result<Option<Forces>, String> {
     if e.motion.is_empty() {
         return Ok(None);
     }
     let forces = read_forces(model, &e.motion)?;
-    let left = certificate::statics(model, &forces, 0.0);
+    let left = certificate::statics(model, &forces, load_factor);
     require(
         f,
         left.unbalance <= tolerance::DRY_BALANCE && left.cone_excess <= tolerance::CONE,
@@ -371,9 +376,8 @@ fn between(f: &mut Findings, carried: &Carried, k: usize, [from, to]: [&[Pose]; 
         .collect();
     let list = &carried.joints;
     let mut deepest = 0.0_f64;
-    // Where a joint has slid its faces are what may run into each other.
     let by_faces: Vec<bool> = (0..list.len())
-        .map(|k| [from, to].iter().any(|poses| carried.slid(poses, k).is_some()))
+        .map(|k| [from, to].iter().any(|poses| carried.sinks_by_faces(poses, k)))
         .collect();
     for share in BETWEEN {
         let poses: Vec<Pose> = from

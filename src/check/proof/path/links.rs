@@ -177,20 +177,19 @@ impl Seen {
 
     /// Whether a step to this point is a jump: it is no way that the parameter grows by.
     pub(super) fn jumps_to(&self, to: &Self, step: &Step, last: f64) -> bool {
-        (to.value - self.value).abs() <= SAME_VALUE * last.abs()
-            && step.off > tolerance::JOINT_CLOSED
+        (to.value - self.value).abs() <= SAME_VALUE * last.abs() && step.off > tolerance::LINKED
     }
 }
 
 impl Step {
     /// Whether it is a continuous motion that the laws of contact allow.
     pub(super) fn links(&self) -> bool {
-        self.off <= tolerance::JOINT_CLOSED && self.turn <= tolerance::LONGEST_TURN
+        self.off <= tolerance::LINKED && self.turn <= tolerance::LONGEST_TURN
     }
 
     /// The same of a short step that goes straight on.
     pub(super) fn links_straight(&self) -> bool {
-        self.beyond <= tolerance::JOINT_CLOSED && self.reach <= STRAIGHT
+        self.beyond <= tolerance::LINKED && self.reach <= STRAIGHT
     }
 }
 

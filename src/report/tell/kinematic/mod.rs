@@ -177,7 +177,6 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
         let way = curve.value.map_or("nowhere".into(), |v| format!("{} m", short(v)));
         let end = match (curve.status, &curve.why) {
             (PathStatus::Vanishes, _) => "where it vanishes".to_string(),
-            (PathStatus::Reached, _) => "it was followed no farther".into(),
             (_, Some(text)) => text.clone(),
             _ => "where it ends".into(),
         };

@@ -8,7 +8,7 @@ use crate::text::{
     page::{Page, Role},
 };
 use base::number::{bracketed, count, fixed, moving, point, short};
-use check::question::QuestionKind;
+use check::question::{Question, QuestionKind};
 use check::{
     proof::{
         path::{DrivenBy, PathAnswer, PathEvent, PathEventKind, PathPoint, PathResult, PathStatus},
@@ -76,7 +76,7 @@ pub(super) fn title(file: &ResultFile) -> (String, Role) {
     let (Some(a), Some(path)) = (file.answer.path(), &file.path) else {
         return ("undecided".into(), Role::Unsure);
     };
-    let (text, role) = followed(file, a, path);
+    let (text, role) = followed(a, path);
     match (a.jumps_at, role) {
         (None, _) => (text, role),
         (Some(v), role) => (
@@ -89,7 +89,7 @@ pub(super) fn title(file: &ResultFile) -> (String, Role) {
     }
 }
 
-fn followed(file: &ResultFile, a: &PathAnswer, path: &PathResult) -> (String, Role) {
+fn followed(a: &PathAnswer, path: &PathResult) -> (String, Role) {
     let known = a.value.map(|v| at(path, v, 6));
     let up_to = known.clone().unwrap_or_else(|| "nowhere".into());
     match (a.status, a.value, a.falls_at) {
@@ -105,11 +105,8 @@ fn followed(file: &ResultFile, a: &PathAnswer, path: &PathResult) -> (String, Ro
             };
             (format!("stands up to {number} {unit}{way}, then falls"), Role::Bad)
         }
-        (PathStatus::Reached, Some(_), _) if file.question.kind() == QuestionKind::Settle => {
-            ("stands through the whole movement".into(), Role::Good)
-        }
         (PathStatus::Reached, Some(_), _) => {
-            (format!("resists up to {up_to} and beyond"), Role::Value)
+            ("stands through the whole movement".into(), Role::Good)
         }
         (PathStatus::Vanishes, Some(_), _) => {
             (format!("its load factor vanishes at {up_to}"), Role::Value)
@@ -146,6 +143,16 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
     }
     if let Some(text) = &a.why {
         page.paragraph(&format!("Not followed any further: {text}."));
+    }
+    let asked = match &file.question {
+        Question::Settle(o) => &o.at[..],
+        Question::Push(o) => &o.at[..],
+        _ => &[],
+    };
+    let missed = asked.iter().filter(|v| a.value.is_none_or(|last| **v > last));
+    let missed: Vec<String> = missed.map(|v| short(*v)).collect();
+    if !missed.is_empty() {
+        page.paragraph(&format!("Asked for by --at and not reached: {}.", missed.join(", ")));
     }
     let events = file.path.iter().flat_map(|p| &p.events);
     if events.into_iter().any(|e| e.kind == PathEventKind::Slides) {
