@@ -101,10 +101,7 @@ pub fn settle(
     let blocks = &model.assembly.blocks;
     let drive = Drive::settle(&model.assembly, options)?;
     let Drive::Settle(Moves(moves)) = &drive else { return Err(error("no support moves".into())) };
-    let speed = moves
-        .iter()
-        .map(|m| m.way.norm() + m.turn.norm() * blocks[m.support].size)
-        .fold(0.0, f64::max);
+    let speed = moves.iter().map(|m| speed(model, m)).fold(0.0, f64::max);
     let goes =
         |i: usize| moves.iter().any(|m| i == m.support && (m.way, m.turn) != Default::default());
     let held = |m: &Member| {
@@ -260,6 +257,20 @@ pub(super) fn followable(model: &Model) -> Result<(), InputError> {
         );
     }
     Ok(())
+}
+
+/// How far a support carries what lies on it at most while the parameter goes from 0 to 1, m: where
+/// it touches, and as far as that turns the blocks there.
+fn speed(model: &Model, m: &Move) -> f64 {
+    let blocks = &model.assembly.blocks;
+    let at = |p: &Vector3<f64>| (m.way + m.turn.cross(&(p - blocks[m.support].centroid))).norm();
+    let list = model.interfaces.list.iter().filter(|f| f.a == m.support || f.b == m.support);
+    let touches = list.map(|f| {
+        let other = if f.a == m.support { f.b } else { f.a };
+        f.points.iter().map(at).fold(0.0, f64::max) + m.turn.norm() * blocks[other].size
+    });
+    let most = touches.reduce(f64::max);
+    most.unwrap_or_else(|| m.way.norm() + m.turn.norm() * blocks[m.support].size)
 }
 
 /// Diagonal of the box around the free blocks, m.

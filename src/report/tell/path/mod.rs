@@ -242,6 +242,9 @@ fn line(path: &PathResult, p: &PathPoint) -> String {
         }
         Some(Claim::Stable) => {
             let all = along(path, p);
+            if all.is_empty() {
+                return format!("{head} stands");
+            }
             if all.len() > FEW {
                 let least = all.iter().map(|f| f.1).fold(f64::INFINITY, f64::min);
                 let greatest = all.iter().map(|f| f.1).fold(f64::NEG_INFINITY, f64::max);
