@@ -69,6 +69,8 @@ pub struct Critical {
     pub scan: Vec<Scanned>,
     /// The changes of verdict, in the order of the scan.
     pub changes: Vec<Change>,
+    /// Ranges in which it stands and needs a pre-stress by turns: undecided.
+    pub by_turns: Vec<[f64; 2]>,
     /// Without a flip: both ends of the range with their evidence, where there are scenes.
     pub ends: Vec<Probe<Proved<Assessment>>>,
     /// What the reader should know.
@@ -142,40 +144,26 @@ pub fn critical(scene: &Scene, range: &Range, control: &Control) -> Result<Criti
             found.insert(at, with_law);
         }
     }
-    let least = 1e-3 * (range.to - range.from).abs();
-    let mut changes = Vec::new();
+    let mut narrowing = Narrowing {
+        ask: &mut ask,
+        laws: [statics, *control],
+        whole,
+        open: &open,
+        least: 1e-3 * (range.to - range.from).abs(),
+        changes: Vec::new(),
+        notes: &mut notes,
+    };
     for pair in found.windows(2) {
-        let [a, b] = pair else { continue };
-        let (va, vb) = (a.assessment.verdict, b.assessment.verdict);
-        let settled =
-            a.admissible() != b.admissible() || ![a, b].iter().any(|p| open.contains(&p.value));
-        if va == vb || !settled {
-            continue;
+        if let [a, b] = pair {
+            narrowing.between(a, b, NESTED);
         }
-        let narrowed = match (whole, a.admissible() == b.admissible()) {
-            (true, _) => Ok((0.5 * (a.value + b.value), Method::Scan, a.clone(), b.clone())),
-            (false, true) => halve(&mut |v| ask(v, *control), a.clone(), b.clone(), least),
-            (false, false) => by_margin(&mut ask, [statics, *control], a, b, least),
-        };
-        let (value, method, one, other) = narrowed.unwrap_or_else(|e| {
-            notes.push(format!(
-                "the range from {} to {} could not be narrowed: {e}",
-                a.value, b.value
-            ));
-            (0.5 * (a.value + b.value), Method::Scan, a.clone(), b.clone())
-        });
-        if let Some(side) = [&one, &other]
-            .into_iter()
-            .find(|p| control.law == Law::Coulomb && p.assessment.rests_on_statics())
-        {
-            notes.push(format!(
-                "at {} admissible forces exist; whether the loads produce them with dry friction stayed undecided",
-                side.value
-            ));
-        }
-        let (below, above) = if one.value <= other.value { (one, other) } else { (other, one) };
-        changes.push(Change { value, method, below: below.proved(), above: above.proved() });
     }
+    let (changes, by_turns) = steady(narrowing.changes);
+    notes.extend(by_turns.iter().map(|[from, to]| {
+        format!(
+            "between {from} and {to} it stands and needs a pre-stress by turns: undecided there"
+        )
+    }));
     // Where there are flips, they say it all.
     let ends =
         if changes.is_empty() { ends.into_iter().map(Probe::proved).collect() } else { Vec::new() };
@@ -185,6 +173,7 @@ pub fn critical(scene: &Scene, range: &Range, control: &Control) -> Result<Criti
         law: control.law,
         scan,
         changes,
+        by_turns,
         ends,
         notes,
         probes,
@@ -237,50 +226,166 @@ impl Range {
     }
 }
 
-type Narrowed = (f64, Method, Probe, Probe);
+/// Changes of verdict that are looked for between two neighbours of the scan: falls, pre-stress,
+/// stands, and back again. More: time lost where the verdict is noise.
+const NESTED: usize = 3;
 
-fn by_margin(
-    ask: &mut dyn FnMut(f64, Control) -> Result<Probe, InputError>,
-    [statics, full]: [Control; 2],
-    a: &Probe,
-    b: &Probe,
-    least: f64,
-) -> Result<Narrowed, InputError> {
-    let (falls, stands) = if a.admissible() == Some(false) { (a, b) } else { (b, a) };
-    let Flip { value, falls, mut stands, linear, .. } =
-        refine(&mut |v| ask(v, statics), falls.clone(), stands.clone(), least)?;
-    // With dry friction what stands by statics may be no more than wedged.
-    if full.law == Law::Coulomb
-        && let Ok(dry) = ask(stands.value, full)
-        && dry.assessment.verdict != Verdict::Undecided
-    {
-        stands = dry;
-    }
-    Ok((value, if linear { Method::Margin } else { Method::Halving }, falls, stands))
+/// A flip between two probes, and whether there is another verdict between them as well.
+enum Narrowed {
+    /// The value, how it was found, and the nearest probes on both sides.
+    Flip(f64, Method, Box<[Probe; 2]>),
+    /// A probe between with a third verdict.
+    Third(Box<Probe>),
 }
 
-/// Halves the range between two different verdicts.
-fn halve(
-    ask: &mut dyn FnMut(f64) -> Result<Probe, InputError>,
-    mut a: Probe,
-    mut b: Probe,
+/// Finds the flips between neighbours of the scan.
+struct Narrowing<'a> {
+    ask: &'a mut dyn FnMut(f64, Control) -> Result<Probe, InputError>,
+    /// Admissible forces alone, and the law that is asked for.
+    laws: [Control; 2],
+    whole: bool,
+    /// Values at which admissible forces exist and dry friction stays undecided.
+    open: &'a [f64],
+    /// The scale of values near zero.
     least: f64,
-) -> Result<Narrowed, InputError> {
-    loop {
-        let (middle, scale) =
-            (0.5 * (a.value + b.value), a.value.abs().max(b.value.abs()).max(least));
-        if (a.value - b.value).abs() <= tolerance::DRY_CRITICAL_WIDTH * scale {
-            break;
+    changes: Vec<Change>,
+    notes: &'a mut Vec<String>,
+}
+
+impl Narrowing<'_> {
+    /// Every flip between two probes, in their order: just beside one the verdict is held against
+    /// that of the neighbour again.
+    fn between(&mut self, a: &Probe, b: &Probe, nested: usize) {
+        let open = [a, b].iter().any(|p| self.open.contains(&p.value));
+        let settled = a.admissible() != b.admissible() || !open;
+        if a.assessment.verdict == b.assessment.verdict || !settled {
+            return;
         }
-        let probe = ask(middle)?;
-        match probe.assessment.verdict {
-            v if v == a.assessment.verdict => a = probe,
-            v if v == b.assessment.verdict => b = probe,
-            // Undecided, or a third verdict: as close as it gets.
-            _ => break,
+        let narrowed = match (self.whole, a.admissible() == b.admissible()) {
+            (true, _) => Ok(scanned(a, b)),
+            (false, true) => self.halve(a.clone(), b.clone()),
+            (false, false) => self.by_margin(a, b),
+        };
+        let (value, method, sides) = match narrowed {
+            Ok(Narrowed::Third(third)) if nested > 0 => {
+                self.between(a, &third, nested - 1);
+                self.between(&third, b, nested - 1);
+                return;
+            }
+            Ok(Narrowed::Flip(value, method, sides)) => (value, method, sides),
+            Ok(Narrowed::Third(_)) => {
+                let (from, to) = (a.value, b.value);
+                self.notes.push(format!("between {from} and {to} the verdict changes by turns"));
+                return;
+            }
+            Err(e) => {
+                self.notes.push(format!(
+                    "the range from {} to {} could not be narrowed: {e}",
+                    a.value, b.value
+                ));
+                (0.5 * (a.value + b.value), Method::Scan, Box::new([a.clone(), b.clone()]))
+            }
+        };
+        let [one, other] = &*sides;
+        if nested > 0 {
+            self.between(a, one, nested - 1);
+        }
+        if let Some(side) = [one, other]
+            .into_iter()
+            .find(|p| self.laws[1].law == Law::Coulomb && p.assessment.rests_on_statics())
+        {
+            self.notes.push(format!(
+                "at {} admissible forces exist; whether the loads produce them with dry friction stayed undecided",
+                side.value
+            ));
+        }
+        let (below, above) = if one.value <= other.value { (one, other) } else { (other, one) };
+        let (below, above) = (below.clone().proved(), above.clone().proved());
+        self.changes.push(Change { value, method, below, above });
+        if nested > 0 {
+            self.between(other, b, nested - 1);
         }
     }
-    Ok((0.5 * (a.value + b.value), Method::Halving, a, b))
+
+    /// Between a probe that falls and one that does not, by the least unbalance.
+    fn by_margin(&mut self, a: &Probe, b: &Probe) -> Result<Narrowed, InputError> {
+        let [statics, full] = self.laws;
+        let is_first = a.admissible() == Some(false);
+        let (falls, stands) = if is_first { (a, b) } else { (b, a) };
+        let mut ask = |v| (self.ask)(v, statics);
+        let Flip { value, falls, mut stands, linear, .. } =
+            refine(&mut ask, falls.clone(), stands.clone(), self.least)?;
+        // With dry friction what stands by statics may be no more than wedged.
+        if full.law == Law::Coulomb
+            && let Ok(dry) = (self.ask)(stands.value, full)
+            && dry.assessment.verdict != Verdict::Undecided
+        {
+            stands = dry;
+        }
+        let method = if linear { Method::Margin } else { Method::Halving };
+        let sides = if is_first { [falls, stands] } else { [stands, falls] };
+        Ok(Narrowed::Flip(value, method, Box::new(sides)))
+    }
+
+    /// Halves the range between two different verdicts.
+    fn halve(&mut self, mut a: Probe, mut b: Probe) -> Result<Narrowed, InputError> {
+        loop {
+            let (middle, scale) =
+                (0.5 * (a.value + b.value), a.value.abs().max(b.value.abs()).max(self.least));
+            if (a.value - b.value).abs() <= tolerance::DRY_CRITICAL_WIDTH * scale {
+                break;
+            }
+            let probe = (self.ask)(middle, self.laws[1])?;
+            match probe.assessment.verdict {
+                v if v == a.assessment.verdict => a = probe,
+                v if v == b.assessment.verdict => b = probe,
+                // As close as it gets.
+                Verdict::Undecided => break,
+                _ => return Ok(Narrowed::Third(Box::new(probe))),
+            }
+        }
+        let value = 0.5 * (a.value + b.value);
+        Ok(Narrowed::Flip(value, Method::Halving, Box::new([a, b])))
+    }
+}
+
+/// A flip that lies somewhere between two values of the scan.
+fn scanned(a: &Probe, b: &Probe) -> Narrowed {
+    Narrowed::Flip(0.5 * (a.value + b.value), Method::Scan, Box::new([a.clone(), b.clone()]))
+}
+
+/// So many flips in a row between standing and standing only with a pre-stress are no flips: what is
+/// wedged is told from what is not by forces that all but suffice, and each value falls to either
+/// side. Fewer: two flips that are ones are taken for noise.
+const BY_TURNS: usize = 3;
+
+/// Rows of flips by turns become a range, whose two sides are told.
+fn steady(changes: Vec<Change>) -> (Vec<Change>, Vec<[f64; 2]>) {
+    let wedged =
+        |c: &Change| [&c.below, &c.above].iter().all(|p| p.assessment.verdict != Verdict::Unstable);
+    let (mut left, mut by_turns) = (Vec::new(), Vec::new());
+    for group in changes.chunk_by(|a, b| wedged(a) && wedged(b)) {
+        match group {
+            [first, .., last] if group.len() >= BY_TURNS => {
+                let ends = [first, last].map(|c| [&c.below, &c.above]);
+                let sides = ends.concat();
+                let by = |a: &&&Probe<_>, b: &&&Probe<_>| a.value.total_cmp(&b.value);
+                let (Some(below), Some(above)) =
+                    (sides.iter().min_by(by).copied(), sides.iter().max_by(by).copied())
+                else {
+                    continue;
+                };
+                by_turns.push([below.value, above.value]);
+                if below.assessment.verdict != above.assessment.verdict {
+                    let value = 0.5 * (below.value + above.value);
+                    let (below, above) = (below.clone(), above.clone());
+                    left.push(Change { value, method: Method::Scan, below, above });
+                }
+            }
+            _ => left.extend(group.iter().cloned()),
+        }
+    }
+    (left, by_turns)
 }
 
 /// Standing values between neighbours of the scan that all fall, with where they belong.

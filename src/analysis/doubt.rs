@@ -288,10 +288,18 @@ impl About<'_> {
         }
         let is_open = |s: &&Scanned| matches!(s.outcome, Ok((Verdict::Undecided, _)));
         let undecided = c.scan.iter().filter(is_open).count();
-        let none = c.scan.iter().filter(|s| s.outcome.is_err()).count();
+        // One value alone that makes no scene is left out.
+        let is_none = |k: &usize| c.scan.get(*k).is_none_or(|s| s.outcome.is_err());
+        let beside = |k: &usize| *k == 0 || is_none(&(k - 1)) || is_none(&(k + 1));
+        let none = (0..c.scan.len()).filter(|k| is_none(k) && beside(k)).count();
         let ends = c.ends.iter().find_map(|p| self.verdict(&p.assessment));
         if undecided + none == 0 && ends.is_none() {
-            return None;
+            let [from, to] = c.by_turns.first()?;
+            return Doubt::new(
+                DoubtCause::Range,
+                format!("between {from} and {to} it stands and needs a pre-stress by turns"),
+                "take it as one that needs a pre-stress there",
+            );
         }
         if self.late {
             return Self::time(c.probes);

@@ -203,6 +203,55 @@ fn every_flip_of_the_scan_is_found() {
     assert!((values[0] + 0.5).abs() < 1e-9 && (values[1] - 0.5).abs() < 1e-9, "{values:?}");
 }
 
+/// Two stones that wedge each other: they fall, stand only with a pre-stress and stand within a tenth
+/// of a thousandth of friction, between two values of the scan.
+#[test]
+fn two_flips_between_neighbours_of_the_scan_are_both_found() {
+    let c01 = json!({ "id": "c01", "density": 2000, "shape": { "polyhedron": {
+        "vertices": [[0.0, 1.4, 0.3], [0.0, 1.4, 0.0], [0.0, 1.0, 0.0], [2.8, 0.9, 0.0],
+            [2.8, 1.4, 0.0], [2.8, 1.4, 0.4], [1.1, 0.0, 0.0], [1.8, 0.0, 0.0], [1.5, 0.0, 0.2],
+            [1.7, 1.4, 1.2]],
+        "faces": [[0, 1, 2], [3, 4, 5], [6, 7, 8], [1, 0, 9, 5, 4], [2, 1, 4, 3, 7, 6],
+            [5, 9, 8, 7, 3], [2, 6, 8, 9, 0]] } } });
+    let c03 = json!({ "id": "c03", "density": 2000, "shape": { "polyhedron": {
+        "vertices": [[2.8, 0.0, 0.0], [2.8, 0.9, 0.0], [2.8, 1.0, 0.1], [2.8, 0.0, 1.6],
+            [1.8, 0.0, 0.0], [2.6, 0.0, 1.7], [2.4, 0.0, 1.7], [1.5, 0.0, 0.2], [2.4, 0.1, 1.7],
+            [1.3, 0.8, 1.0]],
+        "faces": [[0, 1, 2, 3], [4, 0, 3, 5, 6, 7], [1, 0, 4], [6, 5, 8], [1, 4, 7, 9, 2],
+            [7, 6, 8, 9], [2, 9, 8, 5, 3]] } } });
+    let ground = crate::ask::fixed(crate::ask::cuboid("G", [4.8, 3.4, 1.0], [1.4, 0.7, -1.0]));
+    let loads = json!({ "loads": { "dead": [{ "weight": [-0.4, 0.0, 0.0] }] } });
+    let scene = crate::ask::scene(0.6, json!([ground, c01, c03]), loads);
+    let range =
+        Range { pointer: "/joints/default/friction".into(), from: 0.02, to: 1.2, scan: Some(9) };
+    let answer = critical(&scene, &range, &Control::default()).unwrap();
+    let file = saved::critical(&scene, &model(&scene), &answer).unwrap();
+    prove(&scene, &file);
+    let found = file.answer.critical().unwrap();
+    let turns: Vec<[Verdict; 2]> = found.iter().map(|c| [c.below, c.above]).collect();
+    assert_eq!(
+        turns,
+        [[Verdict::Unstable, Verdict::Conditional], [Verdict::Conditional, Verdict::Stable]]
+    );
+    assert!((found[0].value - 0.402625350).abs() < 1e-8 && found[1].value < 0.4029, "{found:?}");
+}
+
+/// A load of exactly zero makes no scene: that value is left out, and no end of the range.
+#[test]
+fn one_value_that_makes_no_scene_is_left_out() {
+    let scene = crate::ask::scene(
+        0.5,
+        json!([
+            crate::ask::ground(),
+            crate::ask::cuboid("block", [1.0, 1.0, 0.5], [0.0, 0.0, 0.0])
+        ]),
+        json!({ "loads": { "dead": [{ "weight": [0.1, 0.0, 0.0] }] } }),
+    );
+    let (answer, file) = ask(&scene, "/loads/dead/0/weight/0", -0.3, 0.3, 7);
+    assert_eq!(answer.scan.iter().filter(|s| s.outcome.is_err()).count(), 1);
+    assert_eq!(file.critical.as_ref().unwrap().exhausted(), Some(Verdict::Stable));
+}
+
 #[test]
 fn a_window_between_the_values_of_the_scan_is_not_missed() {
     // Stands between −0.02 and 0.02 only; the scan hits −1, −0.2, 0.6 and 1.4.

@@ -116,7 +116,7 @@ fn faces(b: &BlockSpec) -> Option<(Vec<V>, Vec<Vec<usize>>)> {
         f
     };
     let (points, faces): (Vec<V>, _) = match &b.shape {
-        Shape::Sphere { .. } | Shape::Clump { .. } => return None,
+        Shape::Sphere { .. } | Shape::Clump { .. } | Shape::Plane { .. } => return None,
         Shape::Cuboid { size } => {
             let c = [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]];
             let at = |k: usize, y: f64| V::new(c[k][0] * size[0], y * size[1], c[k][1] * size[2]);

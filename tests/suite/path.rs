@@ -745,3 +745,104 @@ fn poses_that_no_motion_links_are_not_followed() {
     let points = &path(&file).points;
     open(&file, "push", &farther, points[points.len() - 2].value);
 }
+
+/// A block on a table that turns slides at the angle of friction or turns over at that of its
+/// diagonal, whatever the table is, wherever on it the block stands.
+#[test]
+fn a_block_on_a_table_that_turns_goes_at_the_lesser_of_two_angles() {
+    for (table, friction, [width, height], x) in [
+        (60.0, 0.5, [1.0, 0.6], 0.0),
+        (5.0, 0.5, [1.0, 0.6], 1.3),
+        (60.0, 0.3, [1.0, 1.0], -0.7),
+        (30.0, 1.0, [0.5, 1.5], 0.4),
+    ] {
+        let ground = fixed(cuboid("g", [table, table, 1.0], [0.0, 0.0, -1.0]));
+        let block = cuboid("a", [width, 1.0, height], [x, 0.0, 0.0]);
+        let scene = scene(friction, json!([ground, block]), json!({}));
+        for turn in [60.0, -60.0] {
+            let moves = vec![SupportMove {
+                support: "g".into(),
+                turn_deg: [0.0, turn, 0.0],
+                ..SupportMove::along("g", [0.0; 3])
+            }];
+            let file =
+                followed(&scene, &Question::Settle(SettleOptions { moves, ..Default::default() }));
+            let said = file.answer.path().expect("a path");
+            let share = f64::min(friction.atan(), (width / height).atan()) / 60_f64.to_radians();
+            assert_eq!(said.status, PathStatus::Falls, "{said:?}");
+            close(said.value.expect("a value"), share, 1e-6);
+            close(said.falls_at.expect("a value"), share, 1e-6);
+        }
+    }
+}
+
+/// Two blocks that start at one load go together, and the load factor vanishes where the centre of
+/// each stands over its toe; a third one that is larger changes nothing.
+#[test]
+fn the_load_factor_of_blocks_that_start_together_vanishes_where_that_of_one_does() {
+    for more in [vec![], vec![cuboid("c", [2.0, 2.0, 6.0], [-8.0, 0.0, 0.0])]] {
+        let mut blocks = vec![
+            fixed(cuboid("g", [30.0, 2.0, 1.0], [0.0, 0.0, -1.0])),
+            cuboid("a", [1.0, 1.0, 3.0], [0.0, 0.0, 0.0]),
+            cuboid("b", [1.0, 1.0, 3.0], [8.0, 0.0, 0.0]),
+        ];
+        blocks.extend(more);
+        let scene = scene(NO_SLIDING, json!(blocks), push([1.0, 0.0, 0.0]));
+        let control = ControlPoint { block: "a".into(), point: [0.0, 0.0, 1.5] };
+        for at in [vec![], vec![0.1, 0.33]] {
+            let toward = [1.0, 0.0, 0.0];
+            let options = PushOptions { control: control.clone(), toward, at, from: Vec::new() };
+            let file = followed(&scene, &Question::Push(options));
+            let said = file.answer.path().expect("a path");
+            assert_eq!(said.status, PathStatus::Vanishes, "{said:?}");
+            close(said.value.expect("a value"), 0.5, 1e-9);
+        }
+    }
+}
+
+/// A control point far from the toe goes farther than the joints are wide: what resists there is
+/// followed to where it vanishes, not to the size of the joints.
+#[test]
+fn a_control_point_is_followed_beyond_the_size_of_the_joints() {
+    let ground = fixed(cuboid("g", [30.0, 2.0, 1.0], [0.0, 0.0, -1.0]));
+    let scene = scene(
+        NO_SLIDING,
+        json!([ground, cuboid("a", [1.3, 1.0, 2.6], [0.0, 0.0, 0.0])]),
+        push([1.0, 0.0, 0.0]),
+    );
+    let control = ControlPoint { block: "a".into(), point: [-0.65, 0.0, 3.4] };
+    let toward = [1.0, 0.0, 0.0];
+    let options = PushOptions { control, toward, at: vec![], from: Vec::new() };
+    let file = followed(&scene, &Question::Push(options));
+    let said = file.answer.path().expect("a path");
+    assert_eq!(said.status, PathStatus::Vanishes, "{said:?}");
+    // The centre is 0.65 behind the toe and 1.3 above it; the point 1.3 behind it and 3.4 above.
+    let turn = (0.65_f64 / 1.3).atan();
+    close(said.value.expect("a value"), 1.3 - 1.3 * turn.cos() + 3.4 * turn.sin(), 1e-9);
+}
+
+/// What slides over an edge turns there: the same place in the mirror image.
+#[test]
+fn a_block_that_is_pushed_over_an_edge_turns_where_its_mirror_image_does() {
+    let ends: Vec<f64> = [1.0, -1.0]
+        .into_iter()
+        .map(|side: f64| {
+            let scene = scene(
+                0.35,
+                json!([
+                    fixed(cuboid("table", [2.0, 1.0, 1.0], [side * -0.2, 0.0, -1.0])),
+                    cuboid("a", [1.0, 1.0, 0.5], [side * 0.1, 0.0, 0.0]),
+                ]),
+                push([side, 0.0, 0.0]),
+            );
+            let control = ControlPoint { block: "a".into(), point: [side * 0.1, 0.0, 0.25] };
+            let toward = [side, 0.0, 0.0];
+            let options = PushOptions { control, toward, at: vec![], from: Vec::new() };
+            let file = followed(&scene, &Question::Push(options));
+            let said = file.answer.path().expect("a path");
+            assert_eq!(said.status, PathStatus::Vanishes, "{said:?}");
+            said.value.expect("a value")
+        })
+        .collect();
+    close(ends[1], ends[0], 1e-9);
+}

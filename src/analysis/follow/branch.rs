@@ -64,6 +64,10 @@ pub(super) const WIDTH: f64 = 1e-13;
 /// noise of the engine ends a leg. Farther: forces that pull are taken for none.
 pub(super) const ROOM: f64 = -1e-9;
 
+/// The last value at which it stands and the first at which it falls are this near to each other,
+/// where verdicts can tell them so near. Smaller: scenes asked for digits that nobody needs.
+pub(super) const NARROW: f64 = 1e-8;
+
 /// What says which blocks touch at some poses and did not at the start.
 type Meets<'a> = &'a dyn Fn(&[Pose], bool) -> Option<String>;
 /// What hears of a path that may be taken up again.
@@ -318,7 +322,7 @@ impl Tracker<'_> {
             let there = (value, trial);
             let load_factor = there.1.at.load_factor;
             let wanted = how.at.contains(&value) || value == how.until;
-            if how.drive.is_push() && passed.go(value, load_factor) {
+            if how.drive.is_push() && how.at.is_empty() && passed.go(value, load_factor) {
                 path.points.extend(point(here));
                 path.between -= 1;
                 (self.hears)(&|| path.clone());
@@ -504,28 +508,39 @@ impl Tracker<'_> {
         closed: &[Vec<usize>],
     ) -> Option<End> {
         let control = Control { law: Law::Associative, ..Control::default() };
+        let at = |value: f64| {
+            let at = self.at(linkage, &low.1.at.place, value)?;
+            let displaced = self.carried.touching(&at.place.poses, closed);
+            let verdict = assess(&displaced.model, &control);
+            let point = Point {
+                value,
+                poses: at.place.poses,
+                closed: closed.to_vec(),
+                load_factor: 0.0,
+                forces: verdict.forces.clone(),
+                proving: None,
+                room: 0.0,
+                rates: verdict.rates.clone(),
+                touch: None,
+            };
+            Some((verdict.verdict, point))
+        };
         let side = |sign: f64, wanted: Verdict| {
             // Away from the limit until a proof is found.
             (0..12).find_map(|k| {
-                let value = low.0 * (1.0 + sign * 1e-10 * 4f64.powi(k));
-                let at = self.at(linkage, &low.1.at.place, value)?;
-                let displaced = self.carried.touching(&at.place.poses, closed);
-                let verdict = assess(&displaced.model, &control);
-                (verdict.verdict == wanted).then(|| Point {
-                    value,
-                    poses: at.place.poses,
-                    closed: closed.to_vec(),
-                    load_factor: 0.0,
-                    forces: verdict.forces.clone(),
-                    proving: None,
-                    room: 0.0,
-                    rates: verdict.rates.clone(),
-                    touch: None,
-                })
+                let (verdict, point) = at(low.0 * (1.0 + sign * 1e-10 * 4f64.powi(k)))?;
+                (verdict == wanted).then_some(point)
             })
         };
-        let stands = side(-1.0, Verdict::Stable)?;
-        let falls = side(1.0, Verdict::Unstable)?;
+        let mut stands = side(-1.0, Verdict::Stable)?;
+        let mut falls = side(1.0, Verdict::Unstable)?;
+        while falls.value - stands.value > NARROW * falls.value {
+            match at(0.5 * (stands.value + falls.value)) {
+                Some((Verdict::Stable, point)) => stands = point,
+                Some((Verdict::Unstable, point)) => falls = point,
+                _ => break,
+            }
+        }
         Some(End::Falls(Box::new([stands, falls])))
     }
 }

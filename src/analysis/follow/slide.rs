@@ -2,7 +2,7 @@
 
 use super::{
     advance::{JointChange, Rested, live_power},
-    branch::{Follow, Trial, WIDTH},
+    branch::{Follow, NARROW, Trial, WIDTH},
     linkage::Linkage,
     passed::{Passed, turned_far},
     point::{End, Event, Path, Point},
@@ -146,6 +146,7 @@ impl Tracker<'_> {
                 return Ok(End::Stuck(text));
             }
             let (is_push, points) = (how.drive.is_push(), path.points.len());
+            // Poses far from each other are not seen to be linked where what slides has turned back.
             if is_push && passed.go(next.value, next.load_factor) {
                 let last = path.points.last();
                 if last.is_none_or(|p| p.value < here.value) {
@@ -293,8 +294,7 @@ impl Tracker<'_> {
             Control { law: Law::Associative, deadline: self.deadline, ..Control::default() };
         let blocks = &self.start().blocks;
         let by = beyond - here.value;
-        let falls = (0..12).find_map(|k| {
-            let by = by * 2f64.powi(k);
+        let at = |by: f64| {
             let value = here.value + by;
             let poses: Vec<Pose> = here
                 .poses
@@ -325,7 +325,18 @@ impl Tracker<'_> {
                 rates: verdict.rates.clone(),
                 touch: Some(touch(&found)),
             })
-        });
+        };
+        let mut falls = (0..12).find_map(|k| at(by * 2f64.powi(k)));
+        // As near as it is proved.
+        let mut known = 0.0;
+        while let Some(high) = falls.as_ref().map(|f| f.value - here.value)
+            && high - known > NARROW * beyond
+        {
+            match at(0.5 * (known + high)) {
+                Some(nearer) => falls = Some(nearer),
+                None => known = 0.5 * (known + high),
+            }
+        }
         let Some(falls) = falls else { return stuck };
         path.events.push(Event { value: here.value, beyond: falls.value });
         End::Falls(Box::new([self.slid_point(here), falls]))

@@ -17,6 +17,7 @@ use crate::{
 };
 use base::error::{InputError, JsonPath};
 use check::{
+    elastic::Quadrature,
     proof::{
         evidence::{
             AssessEvidence, CriticalEvidence, Evidence, FactorEvidence, FlipEvidence, HeldEvidence,
@@ -92,7 +93,7 @@ pub(super) fn of(
             if !o.dead_only {
                 o.control = named;
             }
-            Evidence::State(state(model, s))
+            Evidence::State(state(model, o.quadrature, s))
         }
         (Question::Rock(_), Answered::Rock(r)) => {
             let [(under, towards), (other, against)] = &r.built.proofs;
@@ -242,12 +243,13 @@ fn stage(s: &Staged, toward: &[Vector3<f64>]) -> StageEvidence {
     }
 }
 
-fn state(model: &Model, s: &Stated) -> StateEvidence {
+fn state(model: &Model, asked: Quadrature, s: &Stated) -> StateEvidence {
     let step = |step: &check::elastic::Step| StepEvidence {
         load_factor: step.load_factor,
         displacements: displacements(model, &step.displaced),
     };
     StateEvidence {
+        quadrature: (s.quadrature != asked).then_some(s.quadrature),
         steps: s.track.iter().flat_map(|t| &t.steps).map(step).collect(),
         end: s.end,
         bound: s.bound.as_ref().map(|l| factor(model, l, None)),

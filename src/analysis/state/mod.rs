@@ -19,7 +19,7 @@ use super::{
 };
 use base::error::{InputError, JsonPath};
 use check::{
-    elastic::{ElasticState, Joints, Step, System, Track, events},
+    elastic::{ElasticState, Joints, Quadrature, Step, System, Track, events},
     terms::Bound,
     verdict::{Evidence, Forces, Rate, Verdict, claim, claim::Claim, no_forces},
 };
@@ -30,8 +30,8 @@ use newton::Newton;
 /// The answer of `state`.
 #[derive(Clone, Debug)]
 pub struct Stated {
-    /// What was asked.
-    pub options: StateOptions,
+    /// Where its joints yield.
+    pub quadrature: Quadrature,
     /// The joints.
     pub joints: Joints,
     /// The states that were found; nothing where the dead load is not balanced.
@@ -97,17 +97,37 @@ const EVENT: f64 = 1e-7;
 const AHEAD: [f64; 5] = [0.5, 1.0, 2.0, 3.0, 4.0];
 /// Most steps of a path.
 const MOST: usize = 2000;
+/// Newton's steps on a path at most, a joint. Fewer: paths along which much happens are given up.
+/// More: time lost where a joint all but parts, and what presses shrinks from state to state.
+const STEPS_A_JOINT: usize = 500;
 /// Without a bound, the path is followed up to this many times the load factor at which live and
 /// dead load weigh the same.
 const WITHOUT_END: f64 = 10.0;
 
-/// Answers `state`.
+/// Answers `state`: as asked, or with joints that yield at their corners where over their area nothing
+/// is found, or the search is given up.
 pub(super) fn state(
     options: &StateOptions,
     model: &Model,
     control: &Control,
 ) -> Result<Stated, InputError> {
-    let joints = Joints::new(model, options.quadrature)?;
+    let own = stated(options, options.quadrature, model, control)?;
+    let is_whole = |s: &Stated| s.track.is_some() && s.end != PathEnd::Open;
+    let falls = own.standing() == Verdict::Unstable;
+    if options.quadrature == Quadrature::Corners || falls || is_whole(&own) {
+        return Ok(own);
+    }
+    let other = stated(options, Quadrature::Corners, model, control)?;
+    Ok(if is_whole(&other) { other } else { own })
+}
+
+fn stated(
+    options: &StateOptions,
+    quadrature: Quadrature,
+    model: &Model,
+    control: &Control,
+) -> Result<Stated, InputError> {
+    let joints = Joints::new(model, quadrature)?;
     let live = model.assembly.live.iter().any(|w| *w != Wrench::zero());
     if !live && (options.control.is_some() || !options.at.is_empty()) {
         let path = JsonPath::root().key("loads").key("live");
@@ -162,7 +182,7 @@ pub(super) fn state(
     let steps = newton.steps;
     drop(newton);
     Ok(Stated {
-        options: options.clone(),
+        quadrature,
         track: track.filter(|_| stands),
         joints,
         rest,
@@ -250,8 +270,9 @@ impl Walk<'_, '_, '_> {
         let mut wanted: Vec<f64> = at.iter().copied().filter(|v| *v < last).collect();
         wanted.sort_by(f64::total_cmp);
         let mut step = STEP * self.top;
+        let most = STEPS_A_JOINT * self.joints.list.len();
         while track.steps.len() < MOST {
-            if self.control.deadline.is_over() {
+            if self.control.deadline.is_over() || self.newton.steps > most {
                 return PathEnd::Open;
             }
             let lambda = track.steps.last().map_or(0.0, |s| s.load_factor);

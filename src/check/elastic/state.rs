@@ -154,6 +154,10 @@ pub fn corner_forces(model: &Model, joints: &Joints, states: &States) -> Forces 
     forces
 }
 
+/// Shares below this are rounding of the corners. Larger: moments change. Smaller: a corner carries
+/// what is left of rounding, in any direction, and is refused for it.
+const NO_SHARE: f64 = 1e-12;
+
 /// Corners of a convex polygon that carry a force at an inner point, with shares that add up to 1.
 fn shares(corners: &[Vector2<f64>], at: Vector2<f64>) -> Vec<(usize, f64)> {
     match corners {
@@ -177,10 +181,10 @@ fn shares(corners: &[Vector2<f64>], at: Vector2<f64>) -> Vec<(usize, f64)> {
             };
             let best = (1..corners.len() - 1).filter_map(of).max_by(|a, b| a.2.total_cmp(&b.2));
             let Some((i, s, _)) = best else { return vec![(0, 1.0)] };
-            let [x, y] = [s.x.max(0.0), s.y.max(0.0)];
-            let over = (x + y).max(1.0);
-            let (x, y) = (x / over, y / over);
-            vec![(0, 1.0 - x - y), (i, x), (i + 1, y)]
+            let all = [(0, 1.0 - s.x - s.y), (i, s.x), (i + 1, s.y)];
+            let own = all.into_iter().filter(|(_, share)| *share > NO_SHARE);
+            let sum: f64 = own.clone().map(|(_, share)| share).sum();
+            own.map(|(corner, share)| (corner, share / sum)).collect()
         }
     }
 }

@@ -138,8 +138,13 @@ impl CriticalResult {
     /// The verdict throughout the range, where the scan found no flip and left nothing open.
     pub fn exhausted(&self) -> Option<Verdict> {
         let first = self.ends.first()?.verdict()?;
+        // One value alone that makes no scene, such as a load of exactly zero, is left out.
+        let makes_scene = |k: usize| self.scan.get(k).is_some_and(|s| s.verdict.is_some());
         let same = self.complete
-            && self.scan.iter().all(|s| s.verdict == Some(first))
+            && self.scan.iter().enumerate().all(|(k, s)| match s.verdict {
+                Some(verdict) => verdict == first,
+                None => k > 0 && makes_scene(k - 1) && makes_scene(k + 1),
+            })
             && self.ends.iter().all(|e| e.verdict() == Some(first));
         (same && self.flips.is_empty() && self.ends.len() == 2).then_some(first)
     }

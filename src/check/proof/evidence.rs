@@ -7,7 +7,7 @@ use super::{
     simulation::Seen, without::WithoutEvidence,
 };
 use crate::{
-    elastic::PathEnd,
+    elastic::{PathEnd, Quadrature},
     path::saved::SavedPose,
     terms::{ClosedAnswer, Found, Law, Method, Order, StateMotion},
     verdict::{Verdict, evidence::ContactForces},
@@ -366,6 +366,10 @@ pub struct HeldEvidence {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StateEvidence {
+    /// Where joints yield, where that is not as the question has it: over an area the search took too
+    /// long, or found nothing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub quadrature: Option<Quadrature>,
     /// The states, the dead load first.
     pub steps: Vec<StepEvidence>,
     /// How the path along the live load ended.

@@ -378,6 +378,7 @@ pub(super) fn derive(
     e: &StateEvidence,
 ) -> Result<Told, String> {
     let model = d.model;
+    let quadrature = e.quadrature.unwrap_or(o.quadrature);
     if e.steps.is_empty() {
         let dead =
             d.dead(model, e.standing.as_ref()).ok_or("there is neither a state nor a verdict")?;
@@ -386,7 +387,7 @@ pub(super) fn derive(
             Some(other) => other,
         };
         d.check.claimed = verdict != Verdict::Undecided;
-        let answer = StateAnswer::without(verdict, o.quadrature);
+        let answer = StateAnswer::without(verdict, quadrature);
         let mut told = Told::new(model, Answer::State(Box::new(answer)), &Arc::default());
         told.dead_load = Some(dead);
         return Ok(told);
@@ -394,7 +395,7 @@ pub(super) fn derive(
     if e.standing.is_some() {
         return Err("beside a state stands a verdict that was not asked for".into());
     }
-    let joints = Joints::new(model, o.quadrature).map_err(|e| e.to_string())?;
+    let joints = Joints::new(model, quadrature).map_err(|e| e.to_string())?;
     let track = track(model, &joints, e)?;
     d.part("states", laws(&track));
     let mut f = Findings::default();
@@ -426,7 +427,7 @@ pub(super) fn derive(
     let answer = Given {
         model,
         joints: &joints,
-        quadrature: o.quadrature,
+        quadrature,
         track: &track,
         proof,
         control: control(model, o)?,

@@ -14,6 +14,7 @@ use check::{
         result::ResultFile,
         state::{Event, JointAnswer},
     },
+    question::Question,
     verdict::Verdict,
 };
 
@@ -89,6 +90,11 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
         Quadrature::Area => "Joints yield as springs that cannot pull, over the part of them that is pressed; what sticks is stretched, what slides follows Coulomb's law. Displacements are small: second-order effects are left out.",
         Quadrature::Corners => "Joints yield at their corners alone, as in the state under dry friction of the other questions. Displacements are small: second-order effects are left out.",
     });
+    if let Question::State(asked) = &file.question
+        && asked.quadrature != a.quadrature
+    {
+        page.paragraph("It was asked over the area of the joints. There no state was found, or the path did not end: what presses shrinks to nothing. Against turning joints that yield at their corners are up to three times as stiff.");
+    }
     page.paragraph("Forces are those of the displacements, and balance every block inside the friction cones: that it stands is proved by them. That it is this state is computed, from the stiffness of its joints, and rests on the three conditions below.");
     let Some(l) = &a.load_factor else { return };
     page.paragraph(&path(l));

@@ -90,6 +90,7 @@ pub fn extent(scene: &Scene) -> (Vector3<f64>, Vector3<f64>) {
             Shape::Polyhedron { vertices, .. } => reach(&mut vertices.iter().map(far)),
             Shape::Mesh { vertices, scale, .. } => scale * reach(&mut vertices.iter().map(far)),
             Shape::Sphere { radius } => *radius,
+            Shape::Plane { .. } => 0.0,
             Shape::Clump { spheres } => reach(&mut spheres.iter().map(|s| far(&s.at) + s.radius)),
         };
         let at = Vector3::from(block.at);

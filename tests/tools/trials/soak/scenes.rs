@@ -215,6 +215,7 @@ fn grow(shape: &mut Shape, by: f64) {
         }
         Shape::Mesh { scale, .. } => *scale *= by,
         Shape::Sphere { radius } => *radius *= by,
+        Shape::Plane { .. } => {}
         Shape::Clump { spheres } => {
             for ball in spheres {
                 ball.at.iter_mut().for_each(|x| *x *= by);
