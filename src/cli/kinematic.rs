@@ -38,7 +38,7 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
     let answer = session.ask(&question)?;
     let file = session.answer(terminal, session.result(&question, &answer)?)?;
     told.write(&file)?;
-    let exit = requirement(&file, question.require(), |alpha| alpha);
+    let exit = requirement(&file);
     // A site asks whether it is enough.
     let numbers = file.answer.kinematic().map(|a| &a.numbers);
     let ratio = numbers.and_then(|n| Some(n.demand.as_ref()?.ratio));

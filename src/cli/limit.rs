@@ -25,6 +25,6 @@ pub fn run(args: &Limit, terminal: &Terminal) -> anyhow::Result<Exit> {
     session.worst(&args.worst, &question)?;
     let file = session.result(&question, &session.ask(&question)?)?;
     let file = session.answer(terminal, file)?;
-    let exit = requirement(&file, question.require(), |lambda| lambda);
+    let exit = requirement(&file);
     Ok(unless_weaker(&file, exit))
 }

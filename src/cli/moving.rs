@@ -30,7 +30,7 @@ pub fn run(args: &Limit, terminal: &Terminal) -> anyhow::Result<Exit> {
     let film = if session.is_filmed() { positions(&session.model, &file) } else { Vec::new() };
     let file = session.answer_seen(terminal, Depicted::Scene(film), file)?;
     told.write(&file)?;
-    let exit = requirement(&file, question.require(), |lambda| lambda);
+    let exit = requirement(&file);
     Ok(unless_weaker(&file, exit))
 }
 

@@ -13,15 +13,13 @@ use super::{
 use anyhow::bail;
 use std::{path::Path, time::Instant};
 use voussoir::{
-    analysis::{
-        Answer, Control, Difference, Law, Question, Watch, ask, ask_watched, coulomb::Found,
-    },
+    analysis::{Answer, Control, Difference, Law, Question, Watch, ask, ask_watched},
     deadline::{Deadline, clock},
     dynamics::Frame,
     error::{Finding, FindingCode, InputError},
     interface::{Model, prepare_timed},
     limits,
-    proof::{ResultFile, answer::FactorStatus, saved, work::Work},
+    proof::{ResultFile, required::holds, saved, work::Work},
     question::QuestionKind as Kind,
     report::{
         chart::Chart,
@@ -373,41 +371,11 @@ pub fn verdict(verdict: Option<Verdict>) -> Exit {
     }
 }
 
-/// The exit code of a load factor, read through `scale`, against what is required of it. A
-/// requirement inside the bracket is not decided. Where dry friction was asked for, the bound alone
-/// meets no requirement.
-pub fn requirement(file: &ResultFile, require: Option<f64>, scale: fn(f64) -> f64) -> Exit {
-    let Some(said) = file.answer.load_factor() else { return Exit::Undecided };
-    // A scene that needs a pre-stress already without its live load, or falls, is no yes.
-    let negative = said.associative.found().is_some_and(|(.., upper)| upper < 0.0);
-    let level = file.answer.verdict();
-    let dead = matches!(level, Some(Verdict::Conditional | Verdict::Unstable)) || negative;
-    let is_open = level == Some(Verdict::Undecided);
-    let (lower, upper) = (said.lower.map(scale), said.upper.map(scale));
-    let value = said.value.map(scale);
-    match (said.status, require) {
-        (FactorStatus::Impossible | FactorStatus::NotAtRest, _) => Exit::No,
-        _ if dead => Exit::No,
-        (_, Some(r)) if said.associative.upper.map(scale).is_some_and(|u| u < r) => Exit::No,
-        // Nor is one of which that is not known.
-        _ if is_open => Exit::Undecided,
-        (FactorStatus::Found | FactorStatus::Unbounded, None)
-        | (FactorStatus::Unbounded, Some(_)) => Exit::Yes,
-        // Seen at rest there, whatever is known beyond.
-        (_, Some(r)) if lower.is_some_and(|l| l >= r) => Exit::Yes,
-        (FactorStatus::Found, Some(r)) if upper.is_some_and(|u| u < r) => Exit::No,
-        // Of a value with dry friction that slides, the ends are what was seen beside it.
-        (FactorStatus::Found, Some(r))
-            if matches!(said.found, Some(Found::FixedPoint | Found::Rests | Found::RestsBelow)) =>
-        {
-            if value.is_some_and(|v| v < r) {
-                Exit::No
-            } else {
-                Exit::Yes
-            }
-        }
-        (FactorStatus::Found | FactorStatus::AtLeast | FactorStatus::Undecided, _) => {
-            Exit::Undecided
-        }
+/// The exit code of a load factor or an angle, by what is required of it.
+pub fn requirement(file: &ResultFile) -> Exit {
+    match holds(&file.question, &file.answer) {
+        Some(true) => Exit::Yes,
+        Some(false) => Exit::No,
+        None => Exit::Undecided,
     }
 }

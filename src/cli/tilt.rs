@@ -20,6 +20,6 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
     .into();
     let file = session.result(&question, &session.ask(&question)?)?;
     let file = session.answer(terminal, file)?;
-    let exit = requirement(&file, question.require(), |lambda| lambda.atan().to_degrees());
+    let exit = requirement(&file);
     Ok(unless_weaker(&file, exit))
 }

@@ -15,6 +15,7 @@ pub mod packing;
 pub mod path;
 pub mod read;
 pub mod recompute;
+pub mod required;
 pub mod result;
 pub mod rocking;
 pub mod shaken;

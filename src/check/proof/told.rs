@@ -9,6 +9,7 @@ use super::{
     critical::CriticalResult,
     member::{MemberLine, MemberWords},
     path::PathResult,
+    required::Required,
     simulation::Simulation,
     stages::StagesResult,
     thrust::ThrustResult,
@@ -82,6 +83,8 @@ pub struct Told {
     /// and so stand only as long as nothing pushes them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub in_balance: Vec<String>,
+    /// What was required of the answer, and whether it is met.
+    pub required: Option<Required>,
     /// What is to be known about the scene.
     #[serde(rename = "warnings", default, skip_serializing_if = "Vec::is_empty")]
     pub scene_warnings: Vec<Finding>,
@@ -141,6 +144,7 @@ impl Told {
             left_out_contacts: None,
             flattened: Vec::new(),
             in_balance: Vec::new(),
+            required: None,
             scene_warnings: Vec::new(),
             counts: Counts::of(model),
         }

@@ -29,7 +29,7 @@ use crate::{
         page::{Page, Role},
     },
 };
-use base::error::FindingCode;
+use base::{error::FindingCode, number::short};
 use check::{proof::result::ResultFile, question::QuestionKind};
 use telling::{Telling, look};
 
@@ -99,10 +99,29 @@ pub(crate) fn title(page: &mut Page, file: &ResultFile) {
         role = if role == Role::Good { Role::Unsure } else { role };
         text = format!("{text}; {words}");
     }
+    if let Some(words) = required(file) {
+        role = if role == Role::Unsure { role } else { Role::Bad };
+        text = format!("{text}; {words}");
+    }
     if let Some(doubt) = &file.run.doubt {
         text = format!("{text}: {}; {}", doubt.evidence, doubt.next);
     }
     page.title(&file.scene.name, under(file, text), role);
+}
+
+/// What was required and is not, or may not be, there.
+fn required(file: &ResultFile) -> Option<String> {
+    let required = file.required?;
+    let unit = match file.question.kind() {
+        QuestionKind::Tilt | QuestionKind::Repose => "°",
+        _ => "",
+    };
+    let least = short(required.least);
+    match required.met {
+        Some(true) => None,
+        Some(false) => Some(format!("not the required {least}{unit}")),
+        None => Some(format!("whether it is the required {least}{unit} is open")),
+    }
 }
 
 /// What an answer rests on where edges and corners meet with several normals. Why one is undecided

@@ -145,6 +145,9 @@ fn beside(a: &Agreement, s: &Simulation) -> String {
         Some(false) if a.verdict == Verdict::Conditional => format!(
             "The verdict says otherwise: {verdict}. Both are solutions of dry friction: forces that hold the blocks exist, and so does a motion without them. Which one comes depends on how tight the joints are; in the simulation they touched exactly, and the settling of the blocks squeezed them. Do not count on it."
         ),
+        Some(false) if a.verdict == Verdict::Stable => format!(
+            "The verdict says otherwise: {verdict}. That forces hold it is proved; that the loads bring them about is computed, as this run is, and dry friction may have both answers. Do not count on it; look for joints near their limit, thin blocks or great ratios of mass and size."
+        ),
         Some(false) => format!(
             "The verdict says otherwise: {verdict}. A proof outweighs a simulation; look for joints near their limit, thin blocks or great ratios of mass and size."
         ),

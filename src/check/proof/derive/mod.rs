@@ -19,6 +19,7 @@ use super::{
     },
     kinematic, moving, path,
     recompute::Recompute,
+    required::Required,
     result::{ResultFile, Run, SceneSummary},
     rocking, shaken, stages, state, thrust,
     told::{Direction, Told},
@@ -125,6 +126,7 @@ pub fn derive(
     if matches!(&told.answer, Answer::Verdict(v) if v.verdict == Verdict::Stable) {
         told.in_balance = model.ids(&interface::in_balance(model));
     }
+    told.required = Required::of(&question, &told.answer);
     told.scene_warnings = model.own_findings().cloned().collect();
     let check = own.check;
     let name = scene.name.clone();

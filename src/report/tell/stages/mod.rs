@@ -72,8 +72,10 @@ pub(super) fn title(file: &ResultFile) -> (String, Role) {
         Verdict::Undecided => (format!("undecided at {}; {before}", a.worst), Role::Unsure),
         Verdict::Stable => {
             let least = [
-                a.least_load_factor.as_ref().map(|l| least(l, "the least load factor λ =", "")),
-                a.least_tilt_deg.as_ref().map(|l| least(l, "the least tilt", "°")),
+                a.least_load_factor
+                    .as_ref()
+                    .map(|l| least(l, "the least load factor", ["λ = ", ""])),
+                a.least_tilt_deg.as_ref().map(|l| least(l, "the least tilt", ["", "°"])),
             ];
             let least: Vec<String> = least.into_iter().flatten().collect();
             let all = match a.stages {
@@ -131,9 +133,11 @@ fn hands(a: &StagesAnswer, text: String) -> String {
 }
 
 /// A least margin in words.
-fn least(l: &LeastMargin, what: &str, unit: &str) -> String {
+fn least(l: &LeastMargin, what: &str, [sign, unit]: [&str; 2]) -> String {
     match (l.status, l.value) {
-        (FactorStatus::Found, Some(v)) => format!("{what} {}{unit} at {}", computed(v), l.stage),
+        (FactorStatus::Found, Some(v)) => {
+            format!("{what} {sign}{}{unit} at {}", computed(v), l.stage)
+        }
         (FactorStatus::Unbounded, _) => format!("{what}: no limit"),
         _ => format!("{what} undecided at {}", l.stage),
     }
