@@ -153,8 +153,8 @@ pub mod proof {
     pub use check::proof::{
         Answer, Derived, Evidence, PackingFile, ResultFile, Run, Saved, Simulation, Verification,
         VerificationFile, answer, certificate, compare, critical, derive, evidence, kinematic,
-        member, moving, packing, path, read, recompute, required, result, rocking, shaken,
-        simulation, stages, state, thrust, told, verification, without, work,
+        member, moving, packing, path, read, recompute, result, rocking, shaken, simulation,
+        stages, state, thrust, told, verification, without, work,
     };
     pub use sweep::path as kept;
 }

@@ -19,7 +19,7 @@ use voussoir::{
     error::{Finding, FindingCode, InputError},
     interface::{Model, prepare_timed},
     limits,
-    proof::{ResultFile, required::holds, saved, work::Work},
+    proof::{ResultFile, answer::holds, saved, work::Work},
     question::QuestionKind as Kind,
     report::{
         chart::Chart,

@@ -17,11 +17,11 @@
 //! slips, such that the control point goes as far as it is to. Without slips and with a small `ω` it
 //! is the greatest load factor.
 
-use super::{program, tracker::Tracker};
+use super::{program, rested::Rested, tracker::Tracker};
 use crate::{Control, assess, repair};
 use base::tolerance;
 use check::{
-    path::{Side, Spot},
+    path::Spot,
     terms::Law,
     verdict::{Forces, Rate, Verdict, certificate, claim, exact::existence},
 };
@@ -33,38 +33,6 @@ use solve::{
     program as conic,
     program::{Statics, StaticsOptions},
 };
-
-/// What a joint does over a step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum JointChange {
-    /// It touches nowhere.
-    Open,
-    /// It touches along an edge or at a point, on the face of one block or of neither.
-    Hinged(Side),
-    /// It touches all over.
-    Closed,
-}
-
-/// A pose under dry friction.
-#[derive(Clone)]
-pub(super) struct Rested {
-    pub value: f64,
-    pub poses: Vec<Pose>,
-    /// The joint at the start of every contact, and where it touches.
-    pub touch: Vec<(usize, Vec<Vector3<f64>>)>,
-    /// Forces there.
-    pub forces: Forces,
-    /// Others that prove that it stands, where these leave no room for a proof.
-    pub proving: Option<Forces>,
-    /// How each joint touches, and whether it slid in the step that led here.
-    pub joints: Vec<(JointChange, bool)>,
-    /// How the blocks moved in that step, per unit of the parameter.
-    pub rates: Vec<Rate>,
-    /// The load factor that balances it; 0 where none is asked for.
-    pub load_factor: f64,
-    /// The power of the live load on these rates; 0 where there is none.
-    pub power: f64,
-}
 
 /// What the control point is still to go, and the live power on that.
 #[derive(Clone, Copy)]
@@ -576,27 +544,6 @@ impl Tracker<'_> {
             Control { law: Law::Associative, deadline: self.deadline, ..Control::default() };
         let any = assess(model, &control);
         (any.verdict == Verdict::Stable).then(|| any.forces.clone())
-    }
-
-    /// How every joint touches.
-    pub(super) fn joints(
-        &self,
-        poses: &[Pose],
-        slides: impl Fn(usize) -> bool,
-    ) -> Vec<(JointChange, bool)> {
-        let touch = |k: usize| {
-            let spots = self.carried.spots(poses, k);
-            let small = tolerance::JOINT_CLOSED * self.carried.size(k);
-            let closed: Vec<Side> =
-                spots.iter().filter(|s| s.gap.abs() <= small).map(|s| s.side).collect();
-            match closed[..] {
-                [] => JointChange::Open,
-                _ if closed.len() == spots.len() => JointChange::Closed,
-                [side, ..] if closed.iter().all(|s| *s == side) => JointChange::Hinged(side),
-                _ => JointChange::Hinged(Side::Neither),
-            }
-        };
-        (0..self.carried.joints.len()).map(|k| (touch(k), slides(k))).collect()
     }
 }
 

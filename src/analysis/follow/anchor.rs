@@ -10,10 +10,10 @@
 //! not. The place is where their room goes through zero.
 
 use super::{
-    advance::Rested,
     branch::{BranchPoint, Follow, ROOM, WIDTH},
     point::{End, Event, Path, Point},
     program::{self, Hold},
+    rested::Rested,
     root::narrow,
     tracker::Tracker,
 };

@@ -460,7 +460,10 @@ impl Tracker<'_> {
                 let end = self.falls(old, &low, closed);
                 Err(end.unwrap_or_else(|| stuck("it falls, but no proof of it was found")))
             }
-            Landing::Lost(text) => Err(stuck(&text)),
+            Landing::Lost(text) => {
+                let fallen = if how.drive.is_push() { None } else { self.falls(old, &low, closed) };
+                Err(fallen.unwrap_or_else(|| stuck(&text)))
+            }
         }
     }
 

@@ -2,7 +2,8 @@
 //! friction.
 
 use super::{
-    advance::{AT_REST, Push, Rested, Stage, Step, UNSETTLED, live_power},
+    advance::{AT_REST, Push, Stage, Step, UNSETTLED, live_power},
+    rested::Rested,
     tracker::Tracker,
 };
 use base::tolerance;

@@ -15,6 +15,7 @@ mod passed;
 mod point;
 mod program;
 mod rebalance;
+mod rested;
 mod root;
 mod slide;
 mod tracker;

@@ -1,11 +1,12 @@
 //! Motions that slide: from step to step under dry friction.
 
 use super::{
-    advance::{JointChange, Rested, live_power},
+    advance::live_power,
     branch::{Follow, NARROW, Trial, WIDTH},
     linkage::Linkage,
     passed::{Passed, turned_far},
     point::{End, Event, Path, Point},
+    rested::{JointChange, Rested},
     root::narrow,
     tracker::Tracker,
 };
@@ -102,9 +103,8 @@ impl Tracker<'_> {
             if self.deadline.is_over() {
                 return Ok(End::Stuck("the time was over".into()));
             }
-            let stop = how.at.iter().copied().filter(|&v| v > here.value).fold(how.until, f64::min);
             let grid = ((here.value / how.step + 1e-9).floor() + 1.0) * how.step;
-            let aim = stop.min(grid);
+            let aim = how.until.min(grid);
             let mut value =
                 if here.value + 1.000_001 * step >= aim { aim } else { here.value + step };
             if let Some(fails) = fails.filter(|f| *f <= value) {
@@ -146,6 +146,10 @@ impl Tracker<'_> {
                 return Ok(End::Stuck(text));
             }
             let (is_push, points) = (how.drive.is_push(), path.points.len());
+            // What was asked for lies beside the way, and changes none of its steps.
+            for &asked in how.at.iter().filter(|v| here.value < **v && **v < next.value) {
+                path.points.extend(self.advance(&here, asked).map(|at| self.slid_point(&at)));
+            }
             // Poses far from each other are not seen to be linked where what slides has turned back.
             if is_push && passed.go(next.value, next.load_factor) {
                 let last = path.points.last();
@@ -154,7 +158,8 @@ impl Tracker<'_> {
                     path.between -= 1;
                 }
             }
-            let wanted = changed || (!is_push && next.value == aim) || next.value == stop;
+            let asked = next.value == how.until || how.at.contains(&next.value);
+            let wanted = changed || (!is_push && next.value == aim) || asked;
             if wanted || turned_far(path, &next.poses) {
                 path.points.push(self.slid_point(&next));
                 passed = Passed::new(next.value, next.load_factor);

@@ -15,7 +15,6 @@ pub mod packing;
 pub mod path;
 pub mod read;
 pub mod recompute;
-pub mod required;
 pub mod result;
 pub mod rocking;
 pub mod shaken;

@@ -4,12 +4,11 @@
 //! [`derive`]: super::derive::derive
 
 use super::{
-    answer::Answer,
+    answer::{Answer, Required},
     certificate::{Certificate, DryResult},
     critical::CriticalResult,
     member::{MemberLine, MemberWords},
     path::PathResult,
-    required::Required,
     simulation::Simulation,
     stages::StagesResult,
     thrust::ThrustResult,

@@ -19,14 +19,13 @@ use super::{
     },
     kinematic, moving, path,
     recompute::Recompute,
-    required::Required,
     result::{ResultFile, Run, SceneSummary},
     rocking, shaken, stages, state, thrust,
     told::{Direction, Told},
     without,
 };
 use crate::{
-    proof::answer::{Answer, LimitAnswer, SimulationAnswer, TiltAnswer},
+    proof::answer::{Answer, LimitAnswer, Required, SimulationAnswer, TiltAnswer},
     question::{LimitOptions, Question, SimulateOptions, TiltOptions, directions},
     terms::{Fate, Found, Law, StateMotion},
     verdict::{
