@@ -67,6 +67,9 @@ pub(super) const ROOM: f64 = -1e-9;
 /// The last value at which it stands and the first at which it falls are this near to each other,
 /// where verdicts can tell them so near. Smaller: scenes asked for digits that nobody needs.
 pub(super) const NARROW: f64 = 1e-8;
+/// What falls is told so many times as far from the last pose that stands as a verdict needs. Nearer:
+/// the poses as they are written prove nothing. Farther: digits.
+pub(super) const CLEAR: f64 = 4.0;
 
 /// What says which blocks touch at some poses and did not at the start.
 type Meets<'a> = &'a dyn Fn(&[Pose], bool) -> Option<String>;
@@ -543,6 +546,10 @@ impl Tracker<'_> {
                 Some((Verdict::Unstable, point)) => falls = point,
                 _ => break,
             }
+        }
+        let clear = low.0 + CLEAR * (falls.value - low.0);
+        if let Some((Verdict::Unstable, point)) = at(clear) {
+            falls = point;
         }
         Some(End::Falls(Box::new([stands, falls])))
     }

@@ -2,7 +2,7 @@
 
 use super::{
     advance::live_power,
-    branch::{Follow, NARROW, Trial, WIDTH},
+    branch::{CLEAR, Follow, NARROW, Trial, WIDTH},
     linkage::Linkage,
     passed::{Passed, turned_far},
     point::{End, Event, Path, Point},
@@ -341,6 +341,9 @@ impl Tracker<'_> {
                 Some(nearer) => falls = Some(nearer),
                 None => known = 0.5 * (known + high),
             }
+        }
+        if let Some(clear) = falls.as_ref().and_then(|f| at(CLEAR * (f.value - here.value))) {
+            falls = Some(clear);
         }
         let Some(falls) = falls else { return stuck };
         path.events.push(Event { value: here.value, beyond: falls.value });
