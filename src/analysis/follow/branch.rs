@@ -357,7 +357,7 @@ impl Tracker<'_> {
             WIDTH * there.0,
             |v, near| self.at(linkage, &near.place, v).map(|at| (at.load_factor, at)),
         );
-        if let Some([low, _]) = ends
+        if let Some([low, _]) = &ends
             && let Some(margin) = self.margin(&low.2.place.poses, closed, &linkage.holds)
         {
             path.points.push(self.point(low.0, (linkage, &low.2), closed, &margin));

@@ -272,7 +272,11 @@ impl Tracker<'_> {
             (here.value, here.load_factor, here.clone()),
             (beyond.value, beyond.load_factor, beyond),
             width,
-            |v, near| self.advance(near, v).map(|at| (at.load_factor, at)),
+            |v, near| {
+                // From so near that nothing is found, or from where the step began.
+                let at = self.advance(near, v).or_else(|| self.advance(here, v))?;
+                Some((at.load_factor, at))
+            },
         );
         let Some([(_, _, low), _]) = ends else {
             return End::Stuck("the place where the load factor vanishes was not found".into());

@@ -6,7 +6,7 @@ use report::{json, text::Layout};
 use serde::Serialize;
 use serde_json::Value;
 use std::{path::PathBuf, process::ExitCode};
-use trials::{cross, edges, forge, soak};
+use trials::{alike, cross, edges, forge, soak};
 
 /// Trials of the whole on random scenes; exit code 1 where anything is wrong.
 #[derive(Parser)]
@@ -25,6 +25,8 @@ enum Trial {
     Cross(Options),
     /// Blocks that meet at edges and corners, each scene beside the same with flats there.
     Edges(Options),
+    /// Every scene and its images: mirrored, larger, moved, renamed, with points on the way.
+    Alike(Options),
     /// The results of every scene changed into false claims, some two hundred a scene.
     Forge(Options),
 }
@@ -77,7 +79,8 @@ impl Options {
 
 fn main() -> anyhow::Result<ExitCode> {
     let Cli { trial } = Cli::parse();
-    let (Trial::Soak(o) | Trial::Cross(o) | Trial::Edges(o) | Trial::Forge(o)) = &trial;
+    let (Trial::Soak(o) | Trial::Cross(o) | Trial::Edges(o) | Trial::Alike(o) | Trial::Forge(o)) =
+        &trial;
     if o.dump.as_ref().is_some_and(|folder| !folder.is_dir()) {
         bail!("--dump: there is no such folder");
     }
@@ -87,6 +90,7 @@ fn main() -> anyhow::Result<ExitCode> {
         let scene = match trial {
             Trial::Soak(_) => soak::scene(seed, index)?.0,
             Trial::Edges(_) => edges::scene(seed, index)?.0,
+            Trial::Alike(_) => alike::scene(seed, index)?.0,
             _ => cross::scene(seed, index)?.0,
         };
         println!("{}", json::text(&scene.to_value()?));
@@ -112,6 +116,12 @@ fn main() -> anyhow::Result<ExitCode> {
             let list = edges::run(seed, count, kept.as_ref(), |_| {})?;
             let wrong = list.iter().any(edges::Edged::is_wrong);
             o.tell(&list, wrong, [], edges::text(&list, seed, verbose, layout))
+        }
+        Trial::Alike(_) => {
+            let kept = keep.map(|path| alike::keep(path, seed)).transpose()?;
+            let list = alike::run(seed, count, kept.as_ref(), |_| {})?;
+            let wrong = list.iter().any(alike::Alike::is_wrong);
+            o.tell(&list, wrong, [], alike::text(&list, seed, verbose, layout))
         }
         Trial::Forge(_) => {
             let kept = keep.map(|path| forge::keep(path, seed)).transpose()?;

@@ -396,7 +396,7 @@ fn between(f: &mut Findings, carried: &Carried, k: usize, [from, to]: [&[Pose]; 
     }
     require(
         f,
-        deepest <= tolerance::JOINT_CLOSED,
+        deepest <= tolerance::LINKED,
         format!(
             "no joint closes between points {} and {}: by {:.1e} of its block at most",
             k + 1,
