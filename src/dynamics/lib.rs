@@ -26,6 +26,7 @@ mod members;
 mod outcome;
 mod pieces;
 mod rapier;
+mod refused;
 mod rolling;
 mod run;
 mod units;

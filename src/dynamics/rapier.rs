@@ -13,9 +13,10 @@
 //!   alone may take contacts over from step to step while they hardly move
 //!   ([`World::recycle`]; pairs with a hook are always found anew).
 
-use super::bodies::{Body, Combined, Form, Frictions, Role};
-use base::error::{InputError, JsonPath};
-use model::assembly::Block;
+use super::{
+    bodies::{Body, Combined, Form, Frictions, Role},
+    refused::Refused,
+};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use rapier3d::{
     math::{Pose, Rotation, Vector},
@@ -121,33 +122,6 @@ struct Seam {
     role: Role,
     inner: Vec<Vector>,
     outer: Vec<Vector>,
-}
-
-/// What the engine does not take.
-#[derive(Debug)]
-pub enum Refused {
-    /// A piece of this body.
-    Piece(usize),
-    /// The number of threads, and why.
-    Threads(String),
-}
-
-impl Refused {
-    /// This as an error about the block, by its name.
-    pub fn told(self, blocks: &[Block]) -> InputError {
-        match self {
-            Self::Threads(why) => {
-                InputError::at(JsonPath::root(), format!("the engine got no threads: {why}"))
-                    .hint("give --threads 1")
-            }
-            Self::Piece(body) => {
-                let Block { id, path, .. } = &blocks[body];
-                let text = format!("the engine does not take a piece of block {id:?}");
-                InputError::at(path.clone(), text)
-                    .hint("give it a simpler shape, or ask `voussoir assess`")
-            }
-        }
-    }
 }
 
 impl<'a> World<'a> {

@@ -36,6 +36,8 @@ pub(super) struct Anchor<'a> {
 /// Where joints that slide begin to stick while others turn.
 #[derive(Clone)]
 struct Turn {
+    /// The parameter there.
+    value: f64,
     poses: Vec<Pose>,
     /// The corners that stay closed, by the contacts there.
     closed: Vec<Vec<usize>>,
@@ -44,7 +46,7 @@ struct Turn {
 /// Where two mechanisms all but begin together the program may give a mixture of them, which slides;
 /// so much farther, over what a step was short of, it does not. Fewer: a place is missed, in a scene
 /// or in its mirror image.
-const NUDGES: [f64; 6] = [0.0, 1e-3, -1e-3, 3e-3, -3e-3, 1e-2];
+const NUDGES: [f64; 6] = [0.0, 1e-3, 2e-3, 3e-3, 5e-3, 1e-2];
 
 /// Ends of the search for that place, over what a step was short of.
 const BEYOND: [f64; 7] = [1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0];
@@ -180,21 +182,22 @@ impl Tracker<'_> {
         let short = beyond - here.value;
         let held = |v: f64| NUDGES.into_iter().find_map(|by| self.held_on(here, v + by * short));
         let (room, low) = held(here.value)?;
-        let (value, turn) = if room >= ROOM {
+        let turn = if room >= ROOM {
             // A step went over that place.
-            (here.value, low)
+            low
         } else {
             let ends = BEYOND.into_iter().map(|by| here.value + by * short);
             let (high, over, turn) = ends.into_iter().find_map(|v| {
                 let (over, turn) = held(v)?;
                 (over > 0.0).then_some((v, over, turn))
             })?;
-            let [_, (value, _, turn)] =
+            let [_, (_, _, turn)] =
                 narrow((here.value, -room, low), (high, -over, turn), WIDTH * high, |v, _| {
                     held(v).map(|(room, turn)| (-room, turn))
                 })?;
-            (value, turn)
+            turn
         };
+        let value = turn.value;
         let anchor = Anchor::new(self.carried, value, turn.poses);
         path.events.push(Event { value, beyond: value });
         let begin = |tracker: &Tracker, how: &Follow, state: BranchPoint, path: &mut Path| {
@@ -265,6 +268,6 @@ impl Tracker<'_> {
         let carried = Carried::new(&anchor.here.model);
         let bare = carried.touching(&start, &next.closed).model;
         let room = program::margin(&bare, self.drive.is_push())?.room;
-        Some((room, Turn { poses: anchor.poses, closed: next.closed }))
+        Some((room, Turn { value, poses: anchor.poses, closed: next.closed }))
     }
 }

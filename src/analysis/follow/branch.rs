@@ -69,7 +69,7 @@ pub(super) const ROOM: f64 = -1e-9;
 pub(super) const NARROW: f64 = 1e-8;
 /// What falls is told so many times as far from the last pose that stands as a verdict needs. Nearer:
 /// the poses as they are written prove nothing. Farther: digits.
-pub(super) const CLEAR: f64 = 4.0;
+pub(super) const CLEAR: f64 = 1.5;
 
 /// What says which blocks touch at some poses and did not at the start.
 type Meets<'a> = &'a dyn Fn(&[Pose], bool) -> Option<String>;
