@@ -136,8 +136,8 @@ pub struct PathPoint {
     /// Its claim, where that holds.
     #[serde(skip)]
     pub proved: Option<Claim>,
-    /// Of a load factor with dry friction: the load factor of joints that open as they slide, which
-    /// no value passes.
+    /// Of a load factor with dry friction, or where a joint slides and none is known: the load factor
+    /// of joints that open as they slide, which no value passes.
     #[serde(rename = "bound")]
     pub most: Option<f64>,
 }

@@ -90,6 +90,13 @@ pub(in crate::proof) fn curve(
     let linked = &points[..chain.broken.map_or(points.len(), |k| k + 1)];
     let end = if whole { &e.end } else { &EndEvidence::Open };
     let (status, value, falls_at) = status(drive, (linked, &ends), end, natural);
+    // Where a joint slides and that is not followed, what is proved is the bound, and no load factor.
+    if status == PathStatus::Slides
+        && matches!(d.question, Question::Push(_))
+        && let Some(last) = points.last_mut().filter(|p| p.most.is_none())
+    {
+        last.most = last.load_factor.take();
+    }
     let why = match (&e.end, chain.broken) {
         (_, Some(k)) => Some(format!(
             "between {} and {} what carries does not stay where it was: the two poses are not linked",

@@ -233,6 +233,9 @@ fn thinned(points: &[PathPoint], options: TextOptions) -> Vec<&PathPoint> {
 fn line(path: &PathResult, p: &PathPoint) -> String {
     let head = format!("{:<10}", short(p.value));
     match p.certificate.claim {
+        Some(Claim::LoadFactor { upper, .. }) if p.load_factor.is_none() => {
+            format!("{head} λ at most {}, the bound", moving(upper))
+        }
         Some(Claim::LoadFactor { value, lower, upper }) => {
             format!("{head} λ = {}", bracketed(value, lower, upper))
         }

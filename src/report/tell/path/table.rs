@@ -64,6 +64,9 @@ pub fn csv(file: &ResultFile) -> Result<String, ReportError> {
         let (proved, factor) = match p.certificate.claim {
             Some(Claim::Stable) => ("stands", [None; 3]),
             Some(Claim::Unstable) => ("falls", [None; 3]),
+            Some(Claim::LoadFactor { upper, .. }) if p.load_factor.is_none() => {
+                ("bound", [None, None, Some(upper)])
+            }
             Some(Claim::LoadFactor { value, lower, upper }) => {
                 ("load factor", [value, lower, upper].map(Some))
             }
