@@ -4,10 +4,11 @@
 use crate::ask::{asked, cuboid, fixed, model, prism, push, scene, template};
 use serde_json::{Value, json};
 use voussoir::{
-    analysis::{ControlPoint, PushOptions, Question, SettleOptions, SupportMove},
+    analysis::{ControlPoint, LimitOptions, PushOptions, Question, SettleOptions, SupportMove},
     path::saved::read_poses,
     proof::{
         ResultFile,
+        answer::Required,
         path::{PathEventKind, PathPoint, PathResult, PathStatus},
     },
     scene::Scene,
@@ -310,4 +311,35 @@ fn units_change_nothing_about_a_motion_that_slides() {
         assert_eq!(other, how);
         close(there, value, 1e-6);
     }
+}
+
+/// A block pushed by its own weight bears λ = μ: what is required beyond is said not to be met, in the
+/// result too.
+#[test]
+fn what_is_required_and_not_there_is_said() {
+    let blocks = json!([
+        fixed(cuboid("table", [4.0, 1.0, 0.5], [0.0, 0.0, -0.5])),
+        cuboid("block", [1.0, 1.0, 0.5], [0.0, 0.0, 0.0]),
+    ]);
+    let scene = scene(0.5, blocks, push([1.0, 0.0, 0.0]));
+    for (least, met) in [(0.45, true), (0.55, false)] {
+        let options = LimitOptions { require: Some(least), ..LimitOptions::default() };
+        let file = asked(&scene, &Question::Limit(options));
+        assert_eq!(file.required, Some(Required { least, met: Some(met) }));
+    }
+}
+
+/// Of an arch whose joint slides at once the proved number is the bound, and no load factor.
+#[test]
+fn where_a_joint_slides_at_once_the_bound_is_no_load_factor() {
+    let arch = json!({
+        "radius": 2.158388777979293, "thickness": 1.1623333537181528, "depth": 1, "voussoirs": 10,
+        "embrace_deg": 106.4432364439703,
+    });
+    let load = json!({ "loads": { "live": [{ "block": "v06", "force": [1000, 0, -300] }] } });
+    let scene = template(0.7, json!({ "arch": arch }), load);
+    let file = pushed(&scene, "v06", [1.0, 0.0, 2.0], [1.0, 0.0, 0.0], &[]);
+    assert_eq!(status(&file), PathStatus::Slides);
+    let last = path(&file).points.last().expect("a point");
+    assert!(last.load_factor.is_none() && last.most.is_some(), "{last:?}");
 }
