@@ -451,7 +451,7 @@ pub const JOINT_CLOSED: f64 = 1e-9;
 /// the smaller block. Smaller: a joint that closes touches within [`JOINT_CLOSED`], and was apart by
 /// a little more at the last pose at which it did not. Larger: poses that are no continuation of each
 /// other are linked.
-pub const LINKED: f64 = 20.0 * JOINT_CLOSED;
+pub const LINKED: f64 = 4.0 * JOINT_CLOSED;
 
 /// Supports and control points are where a parameter puts them up to this × the size of their block.
 /// Larger: a point of another value passes. Smaller: rounding of saved poses is refused.

@@ -100,7 +100,8 @@ pub(crate) fn title(page: &mut Page, file: &ResultFile) {
         text = format!("{text}; {words}");
     }
     if let Some(words) = required(file) {
-        role = if role == Role::Unsure { role } else { Role::Bad };
+        let fails = file.required.is_some_and(|r| r.met == Some(false));
+        role = if fails { Role::Bad } else { Role::Unsure };
         text = format!("{text}; {words}");
     }
     if let Some(doubt) = &file.run.doubt {
