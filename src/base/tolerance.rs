@@ -447,12 +447,6 @@ pub const STEEPEST_FRICTION: f64 = 100.0;
 /// and blocks that overlap by more are no pose. Larger: a hinge that has hardly opened presses all
 /// over. Smaller: rounding of the poses opens what is closed.
 pub const JOINT_CLOSED: f64 = 1e-9;
-/// What carries at a pose of a path was no farther apart at the pose before than this × the size of
-/// the smaller block. Smaller: a joint that closes touches within [`JOINT_CLOSED`], and was apart by
-/// a little more at the last pose at which it did not. Larger: poses that are no continuation of each
-/// other are linked.
-pub const LINKED: f64 = 4.0 * JOINT_CLOSED;
-
 /// Supports and control points are where a parameter puts them up to this × the size of their block.
 /// Larger: a point of another value passes. Smaller: rounding of saved poses is refused.
 pub const ON_THE_WAY: f64 = 1e-9;

@@ -75,9 +75,6 @@ pub(in crate::proof) fn curve(
     }
     let steps: Vec<Step> = seen.windows(2).map(|w| w[0].step(&carried, &w[1])).collect();
     let chain = Chain::of(&carried, &seen, &steps, &ends_seen);
-    for (k, pair) in seen.windows(2).enumerate().filter(|(k, _)| !chain.jumps.contains(k)) {
-        between(&mut f, &carried, k, [&pair[0].poses, &pair[1].poses]);
-    }
     let natural = claim::natural_factor(&model.assembly);
     let least_reaction = match (drive, &e.least) {
         (Drive::Settle(moves), Some(least)) => least_power(&mut f, model, moves, least),
@@ -99,9 +96,13 @@ pub(in crate::proof) fn curve(
     }
     let why = match (&e.end, chain.broken) {
         (_, Some(k)) => Some(format!(
-            "between {} and {} what carries does not stay where it was: the two poses are not linked",
+            "between {} and {} {}: the two poses are not linked",
             points[k].value,
-            points.get(k + 1).or(ends.last()).map_or(points[k].value, |p| p.value)
+            points.get(k + 1).or(ends.last()).map_or(points[k].value, |p| p.value),
+            match steps.get(k).is_some_and(Step::closes) {
+                true => "a joint closes",
+                false => "what carries does not stay where it was",
+            }
         )),
         (EndEvidence::Slides([a, b]), None) => {
             known(&carried, &[a.clone(), b.clone()])?;
@@ -109,11 +110,12 @@ pub(in crate::proof) fn curve(
         }
         _ => None,
     };
-    let off = steps.iter().enumerate().filter(|(k, _)| !chain.jumps.contains(k));
-    let off = off.map(|(_, s)| s.off).fold(0.0, f64::max);
+    let linked = || steps.iter().enumerate().filter(|(k, _)| !chain.jumps.contains(k));
+    let off = linked().map(|(_, s)| s.off).fold(0.0, f64::max);
+    let sinks = linked().map(|(_, s)| s.sinks).fold(0.0, f64::max);
     f.holds.push(match whole {
         true => format!(
-            "what carries at a point lay together at the one before, to {off:.0e} of its block"
+            "what carries at a point lay together at the one before, to {off:.0e} of its block, and no joint closes between them, to {sinks:.0e}"
         ),
         false => "what does not is not linked, and nothing is said from there on".into(),
     });
@@ -362,55 +364,6 @@ fn known(carried: &Carried, [a, b]: &[String; 2]) -> Result<(), String> {
         true => Ok(()),
         false => Err(format!("the scene has no joint between {a} and {b}")),
     }
-}
-
-/// Part of the way between two points at which it is looked whether anything overlaps.
-const BETWEEN: [f64; 3] = [0.25, 0.5, 0.75];
-
-/// No joint closes on the way between two neighbouring points beyond what straight ways between
-/// their poses, which are curved ones in truth, may be off by: a block's way × its turn, eight times
-/// what a turn about a fixed point is, for blocks do not turn in proportion to each other.
-fn between(f: &mut Findings, carried: &Carried, k: usize, [from, to]: [&[Pose]; 2]) {
-    let assembly = &carried.start.assembly;
-    let off: Vec<f64> = from
-        .iter()
-        .zip(to)
-        .zip(&assembly.blocks)
-        .map(|((a, b), block)| {
-            let turn = a.turn.angle_to(&b.turn);
-            turn * ((b.shift - a.shift).norm() + turn * block.size)
-        })
-        .collect();
-    let list = &carried.joints;
-    let mut deepest = 0.0_f64;
-    let by_faces: Vec<bool> = (0..list.len())
-        .map(|k| [from, to].iter().any(|poses| carried.sinks_by_faces(poses, k)))
-        .collect();
-    for share in BETWEEN {
-        let poses: Vec<Pose> = from
-            .iter()
-            .zip(to)
-            .map(|(a, b)| Pose {
-                shift: a.shift.lerp(&b.shift, share),
-                turn: a.turn.slerp(&b.turn, share),
-            })
-            .collect();
-        for (k, face) in list.iter().enumerate() {
-            let Some(gap) = carried.depth(&poses, k, by_faces[k]) else { continue };
-            let allowed = (off[face.a] + off[face.b]) / carried.size(k);
-            deepest = deepest.max(-gap - allowed);
-        }
-    }
-    require(
-        f,
-        deepest <= tolerance::LINKED,
-        format!(
-            "no joint closes between points {} and {}: by {:.1e} of its block at most",
-            k + 1,
-            k + 2,
-            deepest.max(0.0)
-        ),
-    );
 }
 
 /// Supports and control point are where the parameter puts them.

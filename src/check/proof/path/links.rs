@@ -69,6 +69,8 @@ pub(super) struct Step {
     pub off: f64,
     /// The same beyond what a straight way is off by where blocks turn.
     beyond: f64,
+    /// How far blocks sink into each other between the two poses, as a part of the smaller one.
+    pub sinks: f64,
     /// The greatest turn of a block, rad.
     pub turn: f64,
     /// The longest way of the centre of a block, m.
@@ -123,7 +125,8 @@ impl Seen {
 
     /// The step to another point, by what carries there.
     pub(super) fn step(&self, carried: &Carried, to: &Self) -> Step {
-        self.held(carried, &to.poses, &to.carries, -1.0)
+        let sinks = sinks(carried, [&self.poses, &to.poses]);
+        Step { sinks, ..self.held(carried, &to.poses, &to.carries, -1.0) }
     }
 
     /// The step to a point at which nothing balances, by what carries here.
@@ -146,7 +149,7 @@ impl Seen {
         };
         let farthest = (0..blocks.len()).map(reach).fold(0.0, f64::max);
         let mut step =
-            Step { off: 0.0, beyond: 0.0, turn, way, reach: farthest, slid: BTreeSet::new() };
+            Step { off: 0.0, beyond: 0.0, sinks: 0.0, turn, way, reach: farthest, slid: BTreeSet::new() };
         for place in places {
             let face = &carried.joints[place.joint];
             let [a, b] = [(face.a, place.before[0]), (face.b, place.before[1])]
@@ -177,19 +180,24 @@ impl Seen {
 
     /// Whether a step to this point is a jump: it is no way that the parameter grows by.
     pub(super) fn jumps_to(&self, to: &Self, step: &Step, last: f64) -> bool {
-        (to.value - self.value).abs() <= SAME_VALUE * last.abs() && step.off > tolerance::LINKED
+        (to.value - self.value).abs() <= SAME_VALUE * last.abs() && step.off > tolerance::JOINT_CLOSED
     }
 }
 
 impl Step {
     /// Whether it is a continuous motion that the laws of contact allow.
     pub(super) fn links(&self) -> bool {
-        self.off <= tolerance::LINKED && self.turn <= tolerance::LONGEST_TURN
+        self.off <= tolerance::JOINT_CLOSED && !self.closes() && self.turn <= tolerance::LONGEST_TURN
+    }
+
+    /// Whether blocks overlap between the two poses.
+    pub(super) fn closes(&self) -> bool {
+        self.sinks > tolerance::JOINT_CLOSED
     }
 
     /// The same of a short step that goes straight on.
     pub(super) fn links_straight(&self) -> bool {
-        self.beyond <= tolerance::LINKED && self.reach <= STRAIGHT
+        self.beyond <= tolerance::JOINT_CLOSED && self.reach <= STRAIGHT
     }
 }
 
@@ -209,6 +217,47 @@ const CARRIES: f64 = 1e-3;
 const STRAIGHT: f64 = 1e-2;
 /// Values of the parameter within this × the last one are one: an event has two ends.
 const SAME_VALUE: f64 = 1e-9;
+
+/// Part of the way between two points at which it is looked whether anything overlaps.
+const BETWEEN: [f64; 3] = [0.25, 0.5, 0.75];
+
+/// How far a joint closes on the way between two neighbouring points, as a part of the smaller block,
+/// beyond what straight ways between their poses, which are curved ones in truth, may be off by: a
+/// block's way × its turn, eight times what a turn about a fixed point is, for blocks do not turn in
+/// proportion to each other.
+fn sinks(carried: &Carried, [from, to]: [&[Pose]; 2]) -> f64 {
+    let assembly = &carried.start.assembly;
+    let off: Vec<f64> = from
+        .iter()
+        .zip(to)
+        .zip(&assembly.blocks)
+        .map(|((a, b), block)| {
+            let turn = a.turn.angle_to(&b.turn);
+            turn * ((b.shift - a.shift).norm() + turn * block.size)
+        })
+        .collect();
+    let list = &carried.joints;
+    let mut deepest = 0.0_f64;
+    let by_faces: Vec<bool> = (0..list.len())
+        .map(|k| [from, to].iter().any(|poses| carried.sinks_by_faces(poses, k)))
+        .collect();
+    for share in BETWEEN {
+        let poses: Vec<Pose> = from
+            .iter()
+            .zip(to)
+            .map(|(a, b)| Pose {
+                shift: a.shift.lerp(&b.shift, share),
+                turn: a.turn.slerp(&b.turn, share),
+            })
+            .collect();
+        for (k, face) in list.iter().enumerate() {
+            let Some(gap) = carried.depth(&poses, k, by_faces[k]) else { continue };
+            let allowed = (off[face.a] + off[face.b]) / carried.size(k);
+            deepest = deepest.max(-gap - allowed);
+        }
+    }
+    deepest
+}
 
 impl Touch {
     fn of(carried: &Carried, poses: &[Pose], k: usize) -> Self {

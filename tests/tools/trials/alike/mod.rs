@@ -420,9 +420,13 @@ fn asked(seed: u64, alike: &mut Alike) -> Result<(), InputError> {
         .collect();
     let [.., push, settle] = &on_the_way[..] else { return Ok(()) };
     let again = answered(&scene, &[push.clone(), settle.clone()], &mut alike.slowest)?;
-    alike.wrong.extend(refused(&again, "with --at"));
     let first = own.len() - again.len();
-    let again = again.into_iter().map(|(s, _)| Said { question: s.question + first, ..s });
+    let again: Vec<_> = again
+        .into_iter()
+        .map(|(s, why)| (Said { question: s.question + first, ..s }, why))
+        .collect();
+    alike.wrong.extend(refused(&again, "with --at"));
+    let again = again.into_iter().map(|(said, _)| said);
     hold(alike, &own[first..], again, "with --at", &|_| 1.0);
     alike.own = own;
     Ok(())
