@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 use std::f64::consts::PI;
 use voussoir::{
     analysis::{
-        self, Control, Law, Outcome, Question, ThrustOptions,
+        self, Control, Law, Limited, Outcome, Question, ThrustOptions,
         critical::Range,
         thrust::{self, Ends},
     },
@@ -239,6 +239,28 @@ fn fingers_that_do_not_balance_move_the_block() {
     let s = scene(0.5, json!([table, part]), members);
     assert_eq!(verdict(&s, Law::Associative), Verdict::Stable);
     assert_eq!(verdict(&s, Law::Coulomb), Verdict::Conditional);
+}
+
+/// What fingers hold beside a block that slides stands on forces with which they press with all their
+/// strength: others refuted the load factor of the block.
+#[test]
+fn what_slides_beside_a_grip_has_its_load_factor() {
+    let finger = |x: f64| json!({ "at": [x, 0, 0], "normal": [-x, 0, 0] });
+    let grip = json!({ "id": "gripper", "grip": {
+        "block": "held", "friction": 0.5, "strength": 20.0, "fingers": [finger(1.0), finger(-1.0)] } });
+    let blocks = json!([
+        fixed(cuboid("table", [9.0, 9.0, 1.0], [0.0, 0.0, -9.0])),
+        cuboid("held", [2.0, 2.0, 2.0], [0.0, 0.0, -1.0]),
+        cuboid("slab", [1.0, 1.0, 0.2], [3.0, 0.0, -8.0]),
+    ]);
+    let live = json!([{ "block": "slab", "weight": [1, 0, 0] }]);
+    let s = scene(0.4, blocks, json!({ "members": [grip], "loads": { "live": live } }));
+    let m = model(&s);
+    let bound = analysis::limit(&m, &Control::default());
+    let dry = analysis::coulomb::load_factor(&m, &bound, &Control::default());
+    close("λ", dry.value.unwrap(), 0.4, 1e-6);
+    let limited = Limited { dry: Some(dry), ..bound.into() };
+    prove(&s, &saved::load_factor(&s, &m, &limited).unwrap());
 }
 
 /// A unit cube on the ground, pushed along x by its weight.

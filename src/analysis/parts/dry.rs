@@ -13,7 +13,7 @@ use crate::{
     limit::of_part as limit_part,
 };
 use check::{
-    terms::Deciding,
+    terms::{Deciding, StateMotion},
     verdict::{Forces, Verdict, no_forces},
 };
 use model::interface::{self, Model, Part};
@@ -217,10 +217,17 @@ impl Scene<'_> {
         let lambda = lambda.unwrap_or(0.0);
         let law = if found.is_none_or(open) { Law::Coulomb } else { Law::Associative };
         let a = assess_part(&at(part, lambda), &Control { law, ..*control });
+        let verdict = a.verdict;
+        // A finger presses with all of its strength in those that the loads produce.
+        let has_members = !part.model.interfaces.members.is_empty();
+        let forces = match a.state.filter(|s| has_members && s.motion == StateMotion::Rests) {
+            Some(state) => state.forces,
+            None => a.forces,
+        };
         (
-            a.forces,
-            a.verdict == Verdict::Stable,
-            matches!(a.verdict, Verdict::Conditional | Verdict::Unstable),
+            forces,
+            verdict == Verdict::Stable,
+            matches!(verdict, Verdict::Conditional | Verdict::Unstable),
         )
     }
 }

@@ -148,8 +148,15 @@ impl Seen {
             (b.shift - a.shift).norm() / blocks[i].size + a.turn.angle_to(&b.turn)
         };
         let farthest = (0..blocks.len()).map(reach).fold(0.0, f64::max);
-        let mut step =
-            Step { off: 0.0, beyond: 0.0, sinks: 0.0, turn, way, reach: farthest, slid: BTreeSet::new() };
+        let mut step = Step {
+            off: 0.0,
+            beyond: 0.0,
+            sinks: 0.0,
+            turn,
+            way,
+            reach: farthest,
+            slid: BTreeSet::new(),
+        };
         for place in places {
             let face = &carried.joints[place.joint];
             let [a, b] = [(face.a, place.before[0]), (face.b, place.before[1])]
@@ -180,14 +187,17 @@ impl Seen {
 
     /// Whether a step to this point is a jump: it is no way that the parameter grows by.
     pub(super) fn jumps_to(&self, to: &Self, step: &Step, last: f64) -> bool {
-        (to.value - self.value).abs() <= SAME_VALUE * last.abs() && step.off > tolerance::JOINT_CLOSED
+        (to.value - self.value).abs() <= SAME_VALUE * last.abs()
+            && step.off > tolerance::JOINT_CLOSED
     }
 }
 
 impl Step {
     /// Whether it is a continuous motion that the laws of contact allow.
     pub(super) fn links(&self) -> bool {
-        self.off <= tolerance::JOINT_CLOSED && !self.closes() && self.turn <= tolerance::LONGEST_TURN
+        self.off <= tolerance::JOINT_CLOSED
+            && !self.closes()
+            && self.turn <= tolerance::LONGEST_TURN
     }
 
     /// Whether blocks overlap between the two poses.
