@@ -447,6 +447,7 @@ pub const STEEPEST_FRICTION: f64 = 100.0;
 /// and blocks that overlap by more are no pose. Larger: a hinge that has hardly opened presses all
 /// over. Smaller: rounding of the poses opens what is closed.
 pub const JOINT_CLOSED: f64 = 1e-9;
+
 /// Supports and control points are where a parameter puts them up to this × the size of their block.
 /// Larger: a point of another value passes. Smaller: rounding of saved poses is refused.
 pub const ON_THE_WAY: f64 = 1e-9;
