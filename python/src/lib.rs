@@ -25,6 +25,7 @@ static MEMORY: memory::Counted = memory::Counted;
 #[pymodule]
 fn _core(module: &Bound<PyModule>) -> PyResult<()> {
     memory::heed_threads();
+    voussoir::parallel::heed_environment();
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_class::<scene::Scene>()?;
     module.add_class::<answer::Answer>()?;

@@ -18,11 +18,15 @@ use check::{
 use dynamics::Progress;
 use model::interface::Model;
 use scene::Scene;
+use solve::deadline::Deadline;
 use std::ops::ControlFlow;
 
 /// Asks again by the questions of this crate.
-#[derive(Clone, Copy, Debug)]
-pub struct Solvers;
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Solvers {
+    /// What is not done by then stays unchecked.
+    pub deadline: Deadline,
+}
 
 /// Verifies a result against a scene, the one inside it or one that the reader trusts more, and
 /// computes again what no theorem says.
@@ -30,16 +34,31 @@ pub struct Solvers;
 /// # Errors
 /// The scene cannot be resolved.
 pub fn verify(file: &Saved, scene: &Scene) -> Result<Verified, InputError> {
-    proof::verify(file, scene, &Solvers)
+    proof::verify(file, scene, &Solvers::default())
+}
+
+impl Solvers {
+    fn control(&self) -> Control {
+        Control { deadline: self.deadline, ..Control::default() }
+    }
+
+    /// What was found, if it was found in time: cut short, it says nothing about what was saved.
+    fn in_time<T>(&self, found: impl FnOnce() -> T) -> Option<T> {
+        if self.deadline.is_over() {
+            return None;
+        }
+        let found = found();
+        (!self.deadline.is_over()).then_some(found)
+    }
 }
 
 impl Recompute for Solvers {
     fn motion(&self, model: &Model) -> Option<StateMotion> {
-        Some(coulomb::motion(model, &Control::default()))
+        self.in_time(|| coulomb::motion(model, &self.control()))
     }
 
     fn rests_alone(&self, model: &Model) -> Option<bool> {
-        Some(coulomb::rests_alone(model, &Control::default()))
+        self.in_time(|| coulomb::rests_alone(model, &self.control()))
     }
 
     fn with_value(
@@ -49,8 +68,8 @@ impl Recompute for Solvers {
         value: f64,
         law: Law,
     ) -> Option<Result<(Verdict, f64), InputError>> {
-        let control = Control { law, ..Control::default() };
-        let probe = probe(scene, pointer, value, &control);
+        let control = Control { law, ..self.control() };
+        let probe = self.in_time(|| probe(scene, pointer, value, &control))?;
         Some(probe.map(|p| (p.assessment.verdict, p.unbalance())))
     }
 
@@ -65,7 +84,7 @@ impl Recompute for Solvers {
         if let Some(own) = question.law_mut() {
             *own = law;
         }
-        Some(closing::again(&question, scene, model, &Control::default()))
+        self.in_time(|| closing::again(&question, scene, model, &self.control()))
     }
 
     fn simulated(
@@ -74,7 +93,7 @@ impl Recompute for Solvers {
         scene: &Scene,
         model: &Model,
     ) -> Option<Result<Seen, InputError>> {
-        let control = Control::default();
+        let control = self.control();
         let beside = said.motion.is_some() || said.forces.is_some();
         let assessment = beside.then(|| assess(model, &control));
         // What takes longer than it is said to have taken is not the same; each run is heard of once before its first step.
@@ -83,12 +102,16 @@ impl Recompute for Solvers {
         let mut heard = 0;
         let mut each = |_: &Progress| {
             heard += 1;
-            if heard > most { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            if heard > most || self.deadline.is_over() {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
         };
         let watch =
             Watch { threads: 1, frames: 0, keep_frames: false, every_step: true, each: &mut each };
         let question = Question::Simulate(said.asked.clone());
-        match ask_watched(&question, scene, model, &control, watch) {
+        match self.in_time(|| ask_watched(&question, scene, model, &control, watch))? {
             Ok(Answer::Simulate(outcome)) => {
                 Some(Ok(saved::seen(model, &said.asked, assessment.as_ref(), &outcome)))
             }
@@ -103,8 +126,8 @@ impl Recompute for Solvers {
         scene: &Scene,
         model: &Model,
     ) -> Option<Result<RockingAnswer, InputError>> {
-        let answer = ask(&Question::Rock(options.clone()), scene, model, &Control::default());
-        match answer {
+        let question = Question::Rock(options.clone());
+        match self.in_time(|| ask(&question, scene, model, &self.control()))? {
             Ok(Answer::Rock(r)) => Some(Ok(saved::rocking_answer(model, &r))),
             Ok(_) => None,
             Err(e) => Some(Err(e)),
@@ -122,12 +145,17 @@ impl Recompute for Solvers {
         let mut steps = 0;
         let mut each = |_: &Progress| {
             steps += 1;
-            if steps >= most { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            if steps >= most || self.deadline.is_over() {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
         };
         let watch =
             Watch { threads: 1, frames: 0, keep_frames: false, every_step: true, each: &mut each };
         let question = Question::Shake(said.asked.clone());
-        match ask_watched(&question, scene, model, &Control::default(), watch) {
+        let control = self.control();
+        match self.in_time(|| ask_watched(&question, scene, model, &control, watch))? {
             Ok(Answer::Shake(s)) => Some(Ok(saved::shaken_answer(model, &s))),
             Ok(_) => None,
             Err(e) => Some(Err(e)),
@@ -141,7 +169,7 @@ impl Recompute for Solvers {
         model: &Model,
     ) -> Option<Result<(PathEnd, f64), InputError>> {
         let question = Question::State(options.clone());
-        match ask(&question, scene, model, &Control::default()) {
+        match self.in_time(|| ask(&question, scene, model, &self.control()))? {
             Ok(Answer::State(s)) => {
                 let last = s.track.as_ref().and_then(|t| t.steps.last()).map(|s| s.load_factor);
                 Some(Ok((s.end, last.unwrap_or(0.0))))
@@ -157,6 +185,6 @@ impl Recompute for Solvers {
         scene: &Scene,
         model: &Model,
     ) -> Option<Result<usize, InputError>> {
-        Some(stages::least_held(order, scene, model))
+        self.in_time(|| stages::least_held(order, scene, model))
     }
 }

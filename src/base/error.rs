@@ -3,6 +3,7 @@
 //! An error names the place (file, line, column, JSON path) and the remedy:
 //! `arch.json:41:18: blocks[3].density: must be > 0, got -2400; hint: kg/m³`.
 
+use crate::plain::readable;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -111,11 +112,11 @@ impl fmt::Display for InputError {
             f.write_str(" ")?;
         }
         if !self.path.0.is_empty() {
-            write!(f, "{}: ", self.path)?;
+            write!(f, "{}: ", readable(&self.path.to_string()))?;
         }
-        f.write_str(&self.message)?;
+        f.write_str(&readable(&self.message))?;
         if let Some(hint) = &self.hint {
-            write!(f, "; hint: {hint}")?;
+            write!(f, "; hint: {}", readable(hint))?;
         }
         Ok(())
     }

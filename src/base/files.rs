@@ -20,6 +20,12 @@ pub fn open(path: &Path) -> io::Result<File> {
     opened(OpenOptions::new().read(true), path)
 }
 
+/// What the system says of itself and of this process: the text of a file of `/proc` or `/sys`,
+/// nothing where there is none.
+pub fn of_system(path: &str) -> Option<String> {
+    std::fs::read_to_string(path).ok()
+}
+
 /// Opens a regular file for reading and writing, made where there is none; nothing of it is cut
 /// off.
 ///
@@ -88,6 +94,24 @@ pub fn open_below(folder: &Path, path: &Path) -> io::Result<File> {
     );
     regular(&file.metadata()?)?;
     Ok(file)
+}
+
+/// Opens a regular file that is no link, wherever its folder lies: one that took its place since it
+/// was last seen is not followed.
+///
+/// # Errors
+/// As [`open`], or it is a link.
+pub fn open_itself(path: &Path) -> io::Result<File> {
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let opened = open_below(folder, Path::new(path.file_name().unwrap_or_default()));
+    #[cfg(unix)]
+    let opened = opened.map_err(|e| {
+        match e.raw_os_error() == Some(rustix::io::Errno::LOOP.raw_os_error()) {
+            true => io::Error::other("it has become a link, which is not followed"),
+            false => e,
+        }
+    });
+    opened
 }
 
 /// By one call that follows no link; `None` where the system does not have it, or forbids it.

@@ -116,6 +116,14 @@ pub fn read_file(path: &Path, each: u64) -> Result<Vec<u8>, InputError> {
     files::open(path).map_err(failed).and_then(|file| read_opened(&file, each)).map_err(named)
 }
 
+/// As [`read_file`], of a file that is no link.
+///
+/// # Errors
+/// As [`read_file`], or it is a link.
+pub fn read_itself(path: &Path, each: u64) -> Result<Vec<u8>, InputError> {
+    files::open_itself(path).map_err(failed).and_then(|file| read_opened(&file, each))
+}
+
 /// As [`read_file`], of a file that is open already.
 ///
 /// # Errors

@@ -28,6 +28,22 @@ pub fn document(text: &str) -> Cow<'_, str> {
     shown(text, |c| matches!(c, '\n' | '\t'))
 }
 
+/// Longest that a line says of what stands in a file, characters. Longer: a string of a megabyte,
+/// where a number should stand, is the message. Shorter: lists of names lose their ends.
+const MOST: usize = 2000;
+
+/// What a line says: of what is longer than anybody reads its beginning and its end.
+pub fn readable(text: &str) -> Cow<'_, str> {
+    let count = text.chars().count();
+    if count <= MOST {
+        return Cow::Borrowed(text);
+    }
+    let (head, tail) = (MOST / 2, MOST / 4);
+    let begin: String = text.chars().take(head).collect();
+    let end: String = text.chars().skip(count - tail).collect();
+    Cow::Owned(format!("{begin} … ({} characters more) … {end}", count - head - tail))
+}
+
 fn shown(text: &str, stays: impl Fn(char) -> bool) -> Cow<'_, str> {
     let hidden = |c: char| is_unseen(c) && !stays(c);
     if !text.contains(hidden) {
@@ -86,6 +102,16 @@ mod tests {
 
     /// Every one of them does something somewhere.
     const UNSEEN: &str = "\u{0}\u{7}\u{1b}\u{7f}\u{85}\u{9b}\u{61c}\u{200e}\u{200f}\u{2028}\u{2029}\u{202a}\u{202e}\u{2066}\u{2069}\u{feff}";
+
+    #[test]
+    fn what_nobody_reads_is_shown_by_its_ends() {
+        let short = "ä".repeat(MOST);
+        assert_eq!(readable(&short), short);
+        let long = format!("begin{}end", "ä".repeat(100_000));
+        let shown = readable(&long);
+        assert!(shown.starts_with("begin") && shown.ends_with("end"), "{shown}");
+        assert!(shown.contains("98508 characters more") && shown.chars().count() < MOST, "{shown}");
+    }
 
     #[test]
     fn nothing_unseen_gets_through_in_any_medium() {

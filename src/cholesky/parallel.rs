@@ -18,6 +18,33 @@ use std::{
 /// touched costs nothing.
 const STACK: usize = 16 << 20;
 
+/// Most threads a processor. More: a number with some zeros too many drowns the machine in stacks
+/// and switches. Fewer: work that waits for disks leaves processors idle.
+const A_PROCESSOR: usize = 4;
+
+/// As many threads as are processors.
+pub fn processors() -> usize {
+    thread::available_parallelism().map_or(1, |n| n.get())
+}
+
+/// So many of the threads that are asked for may be started: [four a processor](A_PROCESSOR).
+pub fn most(asked: usize) -> usize {
+    asked.min(A_PROCESSOR * processors())
+}
+
+/// Keeps the pool that dense products use within [`most`], whatever `RAYON_NUM_THREADS` asks for;
+/// the number that was asked for, where it is more. To be called before there is any work.
+pub fn heed_environment() -> Option<usize> {
+    let asked = std::env::var("RAYON_NUM_THREADS").ok()?.trim().parse().ok()?;
+    let most = most(asked);
+    if most == asked {
+        return None;
+    }
+    // Refused where the pool is there already: then it has started what it was asked for.
+    rayon::ThreadPoolBuilder::new().num_threads(most).build_global().ok()?;
+    Some(asked)
+}
+
 /// How many of so many threads (0 for as many as there are processors) are left for the inside of
 /// each of so many pieces of work: at least one.
 pub fn inside(threads: usize, pieces: usize) -> usize {
@@ -26,8 +53,8 @@ pub fn inside(threads: usize, pieces: usize) -> usize {
 
 fn wanted(threads: usize) -> usize {
     match threads {
-        0 => thread::available_parallelism().map_or(1, |n| n.get()),
-        n => n,
+        0 => processors(),
+        n => most(n),
     }
 }
 

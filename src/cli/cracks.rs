@@ -1,10 +1,10 @@
 //! `voussoir settle --cracks`
 
-use super::{exit::Exit, question::Session, terminal};
-use anyhow::Context;
+use super::{exit::Exit, input, question::Session, terminal};
 use std::path::Path;
 use voussoir::{
     analysis::follow::crack::{Cracks, Explanation, explain},
+    error::{InputError, JsonPath},
     number::short,
     report::json,
 };
@@ -13,10 +13,11 @@ use voussoir::{
 const SHOWN: usize = 6;
 
 pub fn run(session: &Session, file: &Path, as_json: bool, quiet: bool) -> anyhow::Result<Exit> {
-    let name = file.display();
-    let text = std::fs::read_to_string(file).with_context(|| format!("{name}: cannot be read"))?;
-    let cracks: Cracks = serde_json::from_str(&text).with_context(|| {
-        format!("{name}: hint: {{ \"cracks\": [ {{ \"between\": [\"v03\", \"v04\"], \"side\": \"intrados\", \"width\": 0.004 }} ] }}")
+    let (name, text) = input::text(file)?;
+    let cracks: Cracks = serde_json::from_str(&text).map_err(|e| InputError {
+        file: Some(name),
+        ..InputError::at(JsonPath::root(), e.to_string())
+            .hint(r#"{ "cracks": [ { "between": ["v03", "v04"], "side": "intrados", "width": 0.004 } ] }"#)
     })?;
     let list = explain(&session.model, &cracks).map_err(|e| session.refuse(e))?;
     let count = cracks.cracks.len();

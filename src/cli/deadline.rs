@@ -16,9 +16,14 @@ const SECONDS: f64 = 2.0;
 /// answers that would still have been found are not.
 const PROGRAMS: f64 = 0.9;
 
+/// When programs have to end, where there is a limit: [`watch`].
+pub fn of(limit: Option<f64>) -> Deadline {
+    limit.map_or(Deadline::NEVER, watch)
+}
+
 /// When programs have to end within a limit that begins now; ends the process once the limit is
 /// well past.
-pub fn watch(limit: f64) -> Deadline {
+fn watch(limit: f64) -> Deadline {
     let deadline = Deadline::within(PROGRAMS * limit);
     let Ok(patience) = Duration::try_from_secs_f64(limit * (1.0 + SHARE) + SECONDS) else {
         return deadline;

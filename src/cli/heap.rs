@@ -92,7 +92,8 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
     // Cut off by the time limit, a heap or a margin is an answer, but not the one that the next run
     // wants.
     let in_time = || !deadline.is_over();
-    let inside = parallel::inside(args.threads.into(), outputs.len());
+    let threads = terminal::threads(args.threads);
+    let inside = parallel::inside(threads, outputs.len());
     let one = |(k, outputs): &(usize, Outputs)| -> anyhow::Result<(HeapResult, Option<View>)> {
         let seed = args.seed + *k as u64;
         let control = Control { law: Law::Associative, keep_all: args.common.keep_all, deadline };
@@ -157,7 +158,7 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
         Ok((HeapResult::new(&heap, result), view))
     };
     let outputs: Vec<(usize, Outputs)> = outputs.into_iter().enumerate().collect();
-    let heaps = parallel::try_map(args.threads.into(), &outputs, one).context("no threads")??;
+    let heaps = parallel::try_map(threads, &outputs, one).context("no threads")??;
     bar.finish_and_clear();
     let (heaps, views): (Vec<_>, Vec<_>) = heaps.into_iter().unzip();
     let file = ReposeFile::new(&protocol, heaps);

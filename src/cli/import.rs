@@ -1,6 +1,6 @@
 //! `voussoir import`
 
-use super::{args::Import, claim, exit::Exit, output::Sink, terminal};
+use super::{args::Import, claim, deadline, exit::Exit, output::Sink, progress::Stage, terminal};
 use voussoir::{
     import::{ImportOptions, import_files},
     report::{imported::examine, json},
@@ -22,14 +22,25 @@ pub fn run(args: &Import) -> anyhow::Result<Exit> {
         stored_interfaces: !args.no_stored_interfaces,
         ..ImportOptions::default()
     };
+    let deadline = deadline::of(args.limit.time_limit);
+    let stage = Stage::begin(true, "reading");
     let imported = import_files(&args.files, &options)?;
-    let examined = examine(&imported, &options);
+    stage.next("looking for contacts and mistakes");
+    let examined = examine(&imported, &options, &|| deadline.is_over());
+    drop(stage);
     terminal::say(&examined.summary);
     terminal::notes(&imported.findings);
     examined.findings.iter().for_each(|f| terminal::say(&format!("warning: {}", f.text)));
     examined.broken.iter().for_each(|text| terminal::say(&format!("warning: {text}")));
+    if let Some(why) = &examined.unfinished {
+        terminal::say(&format!("warning: mistakes were not looked for to the end: {why}"));
+    }
     imported.unread.iter().for_each(|e| terminal::error(&e.clone().into()));
     sink.write(&json::text(&imported.scene.to_value()?))?;
     // The scene is there to be looked at, but no question about it has an answer, or it lacks files.
-    Ok(if examined.broken.is_empty() && imported.unread.is_empty() { Exit::Yes } else { Exit::No })
+    Ok(match examined.broken.is_empty() && imported.unread.is_empty() {
+        false => Exit::No,
+        true if examined.unfinished.is_some() => Exit::Undecided,
+        true => Exit::Yes,
+    })
 }

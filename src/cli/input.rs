@@ -1,10 +1,12 @@
 //! Reading files and standard input.
 
-use super::claim;
+use super::{claim, exit::TimeIsUp, progress::Stage};
 use std::{collections::BTreeSet, path::Path};
 use voussoir::{
+    deadline::Deadline,
     error::{Finding, InputError, JsonPath},
     import::{Reach, read_meshes},
+    interface::{Model, prepare_until},
     limits,
     scene::{self, Scene, Shape, Source},
 };
@@ -14,6 +16,13 @@ use voussoir::{
 pub fn bytes(path: &Path) -> anyhow::Result<(String, Vec<u8>)> {
     claim::read(path)?;
     Ok(read(path)?)
+}
+
+/// As [`bytes`], of a file that holds text.
+pub fn text(path: &Path) -> anyhow::Result<(String, String)> {
+    let (name, bytes) = bytes(path)?;
+    let source = scene::text(name, bytes)?;
+    Ok((source.name, source.text))
 }
 
 fn read(path: &Path) -> Result<(String, Vec<u8>), InputError> {
@@ -54,4 +63,19 @@ pub fn scene_of(
     });
     meshes.collect::<BTreeSet<_>>().iter().try_for_each(|mesh| claim::read(mesh))?;
     Ok((scene, source, findings))
+}
+
+/// The scene resolved, with its interfaces; errors have their place in what was read of it.
+pub fn prepared(
+    scene: &Scene,
+    source: Option<&Source>,
+    deadline: Deadline,
+) -> anyhow::Result<Model> {
+    let _stage = Stage::begin(true, "looking for contacts");
+    let is_over = || deadline.is_over();
+    prepare_until(scene, &is_over).map_err(|e| match (is_over(), source) {
+        (true, _) => TimeIsUp(e.to_string()).into(),
+        (false, Some(source)) => source.located(e).into(),
+        (false, None) => e.into(),
+    })
 }

@@ -81,6 +81,41 @@ impl Sink {
     }
 }
 
+/// A file that grows while work is done. Killed, it ends with what was written last; where it cannot
+/// be written, it is taken away: a piece of a table is none.
+pub struct Growing {
+    path: PathBuf,
+    file: fs::File,
+}
+
+impl Growing {
+    /// Makes the file, empty. Nothing else of this run is read from there or written to it.
+    pub fn open(path: &Path) -> anyhow::Result<Self> {
+        claim::written(path)?;
+        let file = fs::File::create(path)
+            .with_context(|| format!("{}: cannot be written", path.display()))?;
+        Ok(Self { path: path.to_path_buf(), file })
+    }
+}
+
+impl Write for Growing {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.file.write(bytes)
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        self.file.flush()
+    }
+
+    fn write_all(&mut self, bytes: &[u8]) -> std::io::Result<()> {
+        self.file.write_all(bytes).inspect_err(|_| {
+            if self.file.metadata().is_ok_and(|m| m.is_file()) {
+                let _ = fs::remove_file(&self.path);
+            }
+        })
+    }
+}
+
 fn folder(target: &Path) -> &Path {
     target.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }

@@ -4,7 +4,7 @@ use super::{
     args::{Curve, Push, Settle},
     cracks,
     exit::Exit,
-    kept,
+    input, kept,
     question::{Depicted, Session},
     terminal::Terminal,
     told::Told,
@@ -49,9 +49,8 @@ pub fn push(args: &Push, terminal: &Terminal) -> anyhow::Result<Exit> {
 /// the scene that is asked about.
 fn begin(session: &Session, curve: &Curve) -> anyhow::Result<Vec<SavedPose>> {
     let Some(from) = &curve.from else { return Ok(Vec::new()) };
-    let name = from.display();
-    let text = std::fs::read_to_string(from).with_context(|| format!("{name}: cannot be read"))?;
-    let saved = proof::read::read_str(name.to_string(), text)?;
+    let (name, text) = input::text(from)?;
+    let saved = proof::read::read_str(name.clone(), text)?;
     let verified = proof::verify(&saved, &session.scene)?;
     if let Some((title, findings)) = verified.parts.iter().find(|(_, f)| !f.fails.is_empty()) {
         bail!(

@@ -2,7 +2,11 @@
 
 use super::{args, output::Sink};
 use anyhow::{Context, bail};
-use std::path::{Path, PathBuf};
+use std::{
+    fs,
+    io::ErrorKind,
+    path::{Path, PathBuf},
+};
 use voussoir::report::{
     drawing::{self, Aspect},
     gltf, obj, table,
@@ -43,7 +47,7 @@ impl Pictures {
         let mut pictures = Self::open_as(args, None, "pvd")?;
         if let Some(path) = &args.vtk {
             let folder = path.with_extension("");
-            std::fs::create_dir_all(&folder)
+            fs::create_dir_all(&folder)
                 .with_context(|| format!("{}: cannot be written", folder.display()))?;
             pictures.frames = Some(folder);
         }
@@ -183,14 +187,30 @@ impl Pictures {
     }
 }
 
-/// One file a moment, the collection last: it names only what is there.
+/// One file a moment, the collection last: it names only what is there, and where it cannot be
+/// written, nor can they. That of an earlier run, whose moments are replaced, goes first.
 fn film(sink: &Sink, folder: &Path, view: &View) -> anyhow::Result<()> {
     let named = |k: usize| format!("{k:04}.vtp");
-    for (k, frame) in view.film.iter().enumerate() {
-        Sink::open(Some(&folder.join(named(k))))?.write(&vtk::moment(view, frame))?;
+    if let Sink::File(target) = sink
+        && let Err(e) = fs::remove_file(target)
+        && e.kind() != ErrorKind::NotFound
+    {
+        return Err(e).with_context(|| format!("{}: cannot be replaced", target.display()));
     }
-    let beside = folder.file_name().map(|n| n.to_string_lossy()).unwrap_or_default();
-    sink.write(&vtk::collection(view, |k| format!("{beside}/{}", named(k))))
+    let all = || {
+        for (k, frame) in view.film.iter().enumerate() {
+            Sink::open(Some(&folder.join(named(k))))?.write(&vtk::moment(view, frame))?;
+        }
+        let beside = folder.file_name().map(|n| n.to_string_lossy()).unwrap_or_default();
+        sink.write(&vtk::collection(view, |k| format!("{beside}/{}", named(k))))
+    };
+    all().inspect_err(|_| {
+        for k in 0..view.film.len() {
+            let _ = fs::remove_file(folder.join(named(k)));
+        }
+        // Not where something else is in it.
+        let _ = fs::remove_dir(folder);
+    })
 }
 
 fn is_dash(path: &Path) -> bool {

@@ -95,7 +95,7 @@ impl<'a> Session<'a> {
         let save = common.save.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
         let report = common.report.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
         let start = Instant::now();
-        let deadline = common.time_limit.map_or(Deadline::NEVER, deadline::watch);
+        let deadline = deadline::of(common.time_limit);
         let (scene, source, said) = input::scene(&common.scene, common.outside.reach())?;
         let scene = change(scene);
         let read = start.elapsed().as_secs_f64();

@@ -41,6 +41,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, memory: Memory) -> Exi
         return Exit::Usage;
     }
     (memory.heed_group)(arguments.max_memory);
+    terminal::heed_environment();
     match dispatch(&arguments.verb, &terminal) {
         Ok(exit) => exit,
         Err(error) => {

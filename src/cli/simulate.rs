@@ -3,14 +3,14 @@
 use super::{
     args::Simulate,
     camera::Camera,
-    claim,
     exit::Exit,
     ground,
+    output::Growing,
     question::{Depicted, Session},
     terminal::Terminal,
 };
 use anyhow::{Context, bail};
-use std::{fs::File, ops::ControlFlow};
+use std::ops::ControlFlow;
 use voussoir::{
     analysis::{Answer, AssessOptions, SimulateOptions, doubt},
     dynamics::{Fate, Frame},
@@ -46,11 +46,7 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
     // Created before the work, and filled as it goes.
     let mut csv = match &args.csv {
         Some(path) => {
-            claim::written(path)?;
-            Some(
-                TrajectoryWriter::new(File::create(path).with_context(|| written(path))?)
-                    .with_context(|| written(path))?,
-            )
+            Some(TrajectoryWriter::new(Growing::open(path)?).with_context(|| written(path))?)
         }
         None => None,
     };

@@ -54,7 +54,7 @@ pub fn run(args: &Sweep, terminal: &Terminal) -> anyhow::Result<Exit> {
     }
     let options = RunOptions {
         shard: args.shard,
-        threads: args.threads.map(usize::from),
+        threads: args.threads.map(terminal::threads),
         restart: args.restart,
     };
     let bar = bar(args.summary.quiet);

@@ -8,7 +8,9 @@ use std::{
 };
 use voussoir::{
     error::{Finding, InputError},
-    plain::printable,
+    number::count,
+    parallel,
+    plain::{printable, readable},
     report::text::{Layout, Page, Role},
 };
 
@@ -95,7 +97,8 @@ pub fn print(text: &str) -> anyhow::Result<()> {
 /// Prints a line on standard error.
 pub fn say(text: &str) {
     // Where standard error is gone, nobody can be told.
-    let lines: Vec<_> = text.split('\n').map(printable).collect();
+    let lines: Vec<_> =
+        text.split('\n').map(|line| readable(&printable(line)).into_owned()).collect();
     let _ = writeln!(io::stderr().lock(), "{}", lines.join("\n"));
 }
 
@@ -146,10 +149,29 @@ pub fn usage(answer: &clap::Error) -> Exit {
     }
 }
 
-/// Threads of the engine, 0 for as many as there are processors.
-pub fn threads(threads: u16) -> usize {
-    match threads {
-        0 => std::thread::available_parallelism().map_or(1, |n| n.get()),
-        n => n.into(),
+/// Threads of the engine, 0 for as many as there are processors; not all that are asked for where
+/// that is too many, with a word.
+pub fn threads(asked: u16) -> usize {
+    match asked {
+        0 => parallel::processors(),
+        n => within(n.into(), "--threads"),
     }
+}
+
+/// Keeps what the environment asks for within what the machine bears, with a word.
+pub fn heed_environment() {
+    if let Some(asked) = parallel::heed_environment() {
+        within(asked, "RAYON_NUM_THREADS");
+    }
+}
+
+fn within(asked: usize, option: &str) -> usize {
+    let most = parallel::most(asked);
+    if most < asked {
+        let processors = count(parallel::processors(), "processor");
+        say(&format!(
+            "note: {option} {asked}: {most} threads are started, four for each of {processors}"
+        ));
+    }
+    most
 }

@@ -27,8 +27,11 @@ const AGAIN: Duration = Duration::from_millis(250);
 /// A scene file that is followed.
 #[derive(Clone)]
 pub struct File {
-    /// The scene.
+    /// The scene, as it was named.
     pub path: PathBuf,
+    /// Where it was when it was opened, without links: a link that takes its place shows nothing of
+    /// where it leads.
+    pub place: PathBuf,
     /// Where its meshes are found.
     pub folder: PathBuf,
     /// How far they may lie.
@@ -42,7 +45,8 @@ impl File {
     }
 
     fn bytes(&self) -> Result<Vec<u8>, InputError> {
-        limits::read_file(&self.path, limits::PER_BYTE)
+        limits::read_itself(&self.place, limits::PER_BYTE)
+            .map_err(|e| InputError { file: Some(self.name()), ..e })
     }
 }
 
@@ -84,14 +88,14 @@ pub fn run(file: &File, desk: &Desk) {
     let (mut checked, mut waiting) = (Instant::now(), None::<(Vec<Stamp>, Instant)>);
     loop {
         let now: Vec<Stamp> =
-            std::iter::once(&file.path).chain(&meshes).map(|p| stamp(p)).collect();
+            std::iter::once(&file.place).chain(&meshes).map(|p| stamp(p)).collect();
         let same = shown.as_ref().is_some_and(|s| s.0 == now);
         let due = shown.is_none() || !same || (checked.elapsed() > AGAIN && is_young(&now));
         if due {
             let bytes = file.bytes();
             let (whole, named) = look(file, &bytes);
             let stamps: Vec<Stamp> =
-                std::iter::once(&file.path).chain(&named).map(|p| stamp(p)).collect();
+                std::iter::once(&file.place).chain(&named).map(|p| stamp(p)).collect();
             let news = !same || shown.as_ref().is_none_or(|s| s.1 != bytes);
             // Patience begins anew with every change.
             let since = match waiting.take() {

@@ -35,13 +35,14 @@ impl Live {
     /// Begins to follow a file; `port` 0 takes one that is free. Only this machine reaches it.
     ///
     /// # Errors
-    /// The port is taken, or the system gives no random numbers or threads.
+    /// The file is not there, the port is taken, or the system gives no random numbers or threads.
     pub fn open(scene: &Path, reach: Reach, port: u16) -> io::Result<Self> {
         let desk = Arc::new(desk::Desk::new());
         let server = server::Server::bind(port, scene, desk.clone())?;
         let address = server.address()?;
         let folder = scene.parent().unwrap_or(Path::new("")).to_path_buf();
-        let file = follow::File { path: scene.to_path_buf(), folder, reach };
+        let place = scene.canonicalize()?;
+        let file = follow::File { path: scene.to_path_buf(), place, folder, reach };
         let (watched, seen) = (file.clone(), desk.clone());
         thread("follow", move || follow::run(&watched, &seen))?;
         thread("ask", move || worker::run(&file, &desk))?;

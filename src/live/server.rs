@@ -10,23 +10,23 @@ use crate::{analysis::Question, report::page};
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::{
+    collections::VecDeque,
     fs::OpenOptions,
     io::{self, Write},
-    net::{Ipv4Addr, SocketAddr, TcpListener, TcpStream},
+    net::{Ipv4Addr, Shutdown, SocketAddr, TcpListener, TcpStream},
     path::{Path, PathBuf},
     sync::{
-        Arc,
-        atomic::{AtomicUsize, Ordering},
+        Arc, Mutex, PoisonError,
+        atomic::{AtomicU64, AtomicUsize, Ordering},
     },
-    time::{Duration, Instant},
+    time::Duration,
 };
 
-/// Connections at a time. Fewer: a few open windows shut each other out. More: threads for nothing.
+/// Connections at a time that have shown the token, and as many that have not yet. Fewer: a few open
+/// windows shut each other out. More: threads for nothing.
 const MOST: usize = 64;
 /// A window that is gone is noticed after this time at the latest.
 const HEARTBEAT: Duration = Duration::from_millis(200);
-/// A connection beyond that many waits for its turn, this long at most.
-const TURN: Duration = Duration::from_secs(1);
 /// Names that are tried for a scene that is saved.
 const NAMES: usize = 1000;
 
@@ -50,7 +50,38 @@ struct Inside {
     gate: Gate,
     desk: Arc<Desk>,
     scene: PathBuf,
+    /// Connections that have shown the token.
     open: AtomicUsize,
+    strangers: Strangers,
+}
+
+/// Connections that have not shown the token yet, the oldest first. A browser shows it at once: who
+/// has been silent longest goes when there are too many, so that they keep nobody out.
+#[derive(Default)]
+struct Strangers {
+    list: Mutex<VecDeque<(u64, TcpStream)>>,
+    next: AtomicU64,
+}
+
+impl Strangers {
+    /// Takes one in, and says its number.
+    fn add(&self, stream: &TcpStream) -> io::Result<u64> {
+        let number = self.next.fetch_add(1, Ordering::Relaxed);
+        let mut list = self.list.lock().unwrap_or_else(PoisonError::into_inner);
+        if list.len() >= MOST
+            && let Some((_, oldest)) = list.pop_front()
+        {
+            let _ = oldest.shutdown(Shutdown::Both);
+        }
+        list.push_back((number, stream.try_clone()?));
+        Ok(number)
+    }
+
+    /// One is none any more.
+    fn remove(&self, number: u64) {
+        let mut list = self.list.lock().unwrap_or_else(PoisonError::into_inner);
+        list.retain(|(other, _)| *other != number);
+    }
 }
 
 impl Server {
@@ -62,7 +93,8 @@ impl Server {
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port))?;
         let gate = Gate::new(listener.local_addr()?)?;
         let (scene, open) = (scene.to_path_buf(), AtomicUsize::new(0));
-        Ok(Self { listener, inside: Arc::new(Inside { gate, desk, scene, open }) })
+        let strangers = Strangers::default();
+        Ok(Self { listener, inside: Arc::new(Inside { gate, desk, scene, open, strangers }) })
     }
 
     /// Where it listens.
@@ -87,21 +119,10 @@ impl Server {
                 continue;
             };
             let inside = self.inside.clone();
-            let arrived = Instant::now();
-            while inside.open.load(Ordering::Relaxed) >= MOST && arrived.elapsed() < TURN {
-                std::thread::sleep(Duration::from_millis(5));
-            }
-            if inside.open.load(Ordering::Relaxed) >= MOST {
-                continue;
-            }
-            inside.open.fetch_add(1, Ordering::Relaxed);
+            let Ok(number) = inside.strangers.add(&stream) else { continue };
             let work = inside.clone();
-            let begun = thread("page", move || {
-                work.connection(stream);
-                work.open.fetch_sub(1, Ordering::Relaxed);
-            });
-            if begun.is_err() {
-                inside.open.fetch_sub(1, Ordering::Relaxed);
+            if thread("page", move || work.connection(stream, number)).is_err() {
+                inside.strangers.remove(number);
             }
         }
     }
@@ -109,16 +130,35 @@ impl Server {
 
 impl Inside {
     /// One request. What cannot be sent is nobody's any more.
-    fn connection(&self, mut stream: TcpStream) {
+    fn connection(&self, mut stream: TcpStream, number: u64) {
         let _ = stream.set_nodelay(true);
-        if let Err(refusal) = self.request(&mut stream) {
+        let asked = http::head(&mut stream)
+            .and_then(|(head, begun)| self.gate.check(&head).map(|wanted| (wanted, begun)));
+        let refused = match asked {
+            Err(refusal) => Err(refusal),
+            Ok(_) if self.open.fetch_add(1, Ordering::Relaxed) >= MOST => {
+                self.open.fetch_sub(1, Ordering::Relaxed);
+                Err((503, "Service Unavailable"))
+            }
+            Ok((wanted, begun)) => {
+                self.strangers.remove(number);
+                let done = self.request(&mut stream, begun, wanted);
+                self.open.fetch_sub(1, Ordering::Relaxed);
+                done
+            }
+        };
+        if let Err(refusal) = refused {
             http::refuse(&mut stream, refusal);
         }
+        self.strangers.remove(number);
     }
 
-    fn request(&self, stream: &mut TcpStream) -> Result<(), Refusal> {
-        let (head, begun) = http::head(stream)?;
-        let (route, length) = self.gate.check(&head)?;
+    fn request(
+        &self,
+        stream: &mut TcpStream,
+        begun: Vec<u8>,
+        (route, length): (Route, usize),
+    ) -> Result<(), Refusal> {
         let body = http::body(stream, begun, length)?;
         let gone = |_: io::Error| ();
         let json = "application/json";

@@ -9,7 +9,7 @@ use base::{
 };
 use model::{
     assembly::{Mend, Polyhedron, ShapeError},
-    interface::{Model, on_its_side, prepare},
+    interface::{Model, on_its_side, prepare_until},
 };
 use nalgebra::Vector3;
 use scene::{
@@ -32,10 +32,16 @@ pub struct Examined {
     pub broken: Vec<String>,
     /// What looks like a mistake.
     pub findings: Vec<Finding>,
+    /// Why not all mistakes were looked for: the time was over.
+    pub unfinished: Option<String>,
 }
 
-/// Looks at what was imported.
-pub fn examine(imported: &Imported, options: &ImportOptions) -> Examined {
+/// Looks at what was imported; not at where its blocks touch once the time `is_over`, which is said.
+pub fn examine(
+    imported: &Imported,
+    options: &ImportOptions,
+    is_over: &dyn Fn() -> bool,
+) -> Examined {
     let scene = &imported.scene;
     let solids: Vec<_> = scene.blocks.iter().map(solid).collect();
     let told = |(block, (solid, origin)): (&BlockSpec, (&Result<f64, ShapeError>, &Origin))| {
@@ -45,14 +51,15 @@ pub fn examine(imported: &Imported, options: &ImportOptions) -> Examined {
     let mut broken: Vec<String> =
         scene.blocks.iter().zip(solids.iter().zip(&imported.origins)).filter_map(told).collect();
     let volume: f64 = solids.iter().flatten().sum();
-    let mut findings = Vec::new();
+    let (mut findings, mut unfinished) = (Vec::new(), None);
     if broken.is_empty() {
-        match mistakes(scene, options) {
+        match mistakes(scene, options, is_over) {
             Ok(found) => findings = found,
+            Err(why) if is_over() => unfinished = Some(why),
             Err(why) => broken.push(why),
         }
     }
-    Examined { summary: summary(scene, volume), broken, findings }
+    Examined { summary: summary(scene, volume), broken, findings, unfinished }
 }
 
 /// The volume of a block, m³.
@@ -114,7 +121,11 @@ fn short(x: f64) -> String {
 
 /// What looks like a mistake, with stand-ins for what is not known yet. What is known to be missing
 /// has been said.
-fn mistakes(scene: &Scene, options: &ImportOptions) -> Result<Vec<Finding>, String> {
+fn mistakes(
+    scene: &Scene,
+    options: &ImportOptions,
+    is_over: &dyn Fn() -> bool,
+) -> Result<Vec<Finding>, String> {
     let mut trial = scene.clone();
     trial.joints.default.friction.get_or_insert(Friction::Coefficient(0.6));
     let supports = scene.blocks.iter().filter(|b| b.support).count();
@@ -126,7 +137,7 @@ fn mistakes(scene: &Scene, options: &ImportOptions) -> Result<Vec<Finding>, Stri
     if trial.blocks.len() < 2 {
         return Ok(Vec::new());
     }
-    let model = prepare(&trial).map_err(|e| e.to_string())?;
+    let model = prepare_until(&trial, is_over).map_err(|e| e.to_string())?;
     let mut found: Vec<Finding> = model
         .findings()
         .filter(|f| f.code.is_mistake() && (decided || !by_supports(f.code)))

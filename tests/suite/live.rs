@@ -213,6 +213,49 @@ fn a_request_that_never_ends_holds_up_nobody() {
 }
 
 #[test]
+fn connections_that_say_nothing_keep_out_nobody() {
+    let (_folder, file) = desk();
+    let open = Open::new(&file);
+    let silent: Vec<TcpStream> = (0..600).map(|_| open.connect()).collect();
+    let begun = Instant::now();
+    for _ in 0..5 {
+        assert_eq!(status(&open.send("GET", "/T/", "", b"")), "200");
+        drop(open.listen().dry(0));
+    }
+    let taken = begun.elapsed();
+    assert_eq!(silent.len(), 600);
+    // A request that waited for them would have waited for all of their five seconds each time.
+    assert!(taken < Duration::from_secs(20), "{taken:?}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_in_the_place_of_the_scene_shows_nothing_of_where_it_leads() {
+    let (folder, file) = desk();
+    let open = Open::new(&file);
+    let mut news = open.listen();
+    news.dry(0);
+    let secret = folder.path().join("secret");
+    fs::write(&secret, "{ \"format\": \"voussoir-scene/1\", \"password\": \"sesame\" }").unwrap();
+    let link = folder.path().join("link");
+    std::os::unix::fs::symlink(&secret, &link).unwrap();
+    fs::rename(&link, &file).unwrap();
+    let error = news
+        .until(|kind, v| (kind == "status" && !v["error"].is_null()).then(|| v["error"].clone()));
+    let text = error.to_string();
+    assert!(
+        text.contains("link") && !text.contains("sesame") && !text.contains("password"),
+        "{text}"
+    );
+    // Opened through a link, the file where it led then is followed.
+    let (folder, file) = desk();
+    let link = folder.path().join("link.json");
+    std::os::unix::fs::symlink(&file, &link).unwrap();
+    let answer = Open::new(&link).listen().dry(0);
+    assert!(answer["title"].as_str().unwrap().contains("stands"));
+}
+
+#[test]
 fn saves_are_followed_and_mistakes_have_their_place() {
     let (folder, file) = desk();
     let open = Open::new(&file);

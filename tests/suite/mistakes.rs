@@ -247,7 +247,7 @@ fn no_real_assembly_raises_a_false_one() {
             };
             let imported =
                 import_files(&[folder.join(file)], &options).unwrap_or_else(|e| panic!("{e}"));
-            let examined = examine(&imported, &options);
+            let examined = examine(&imported, &options, &|| false);
             wrong.extend(
                 examined
                     .broken

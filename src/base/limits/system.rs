@@ -1,14 +1,11 @@
 //! What the system lets this process have: free memory, the limits of its control group, its own
 //! address space (Linux; elsewhere nothing is known).
 
+use crate::files::of_system as file;
 use std::path::Path;
 
 /// Reads a file of the system as text.
 type Read<'a> = &'a dyn Fn(&str) -> Option<String>;
-
-fn file(path: &str) -> Option<String> {
-    std::fs::read_to_string(path).ok()
-}
 
 /// Bytes that can still be taken: the least of what the machine, the control group and the limits
 /// of the process leave.

@@ -53,7 +53,7 @@ impl Work {
 
 /// Linux tells it in `/proc`; elsewhere it is not known.
 fn peak_memory() -> Option<u64> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let status = base::files::of_system("/proc/self/status")?;
     let line = status.lines().find(|l| l.starts_with("VmHWM:"))?;
     let kilobytes: u64 = line.split_whitespace().nth(1)?.parse().ok()?;
     Some(1024 * kilobytes)

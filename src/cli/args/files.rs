@@ -1,7 +1,7 @@
 //! Arguments of the verbs about files: templates, imports, checks, schemas, completions, manuals.
 
 use super::{
-    Outside, Pictures, Tables,
+    Outside, Pictures, Tables, TimeLimit,
     parse::{Written, assignment, finite, friction, not_negative, output, positive, up},
 };
 use clap::{Args, ValueEnum};
@@ -124,6 +124,8 @@ pub struct Import {
     /// Leave out the interfaces stored in the file: all contacts are detected.
     #[arg(long)]
     pub no_stored_interfaces: bool,
+    #[command(flatten)]
+    pub limit: TimeLimit,
 }
 
 #[derive(Debug, Args)]
@@ -144,4 +146,6 @@ pub struct Check {
     /// the findings.
     #[arg(long)]
     pub json: bool,
+    #[command(flatten)]
+    pub limit: TimeLimit,
 }

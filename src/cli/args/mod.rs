@@ -199,14 +199,16 @@ pub enum Verb {
     Generate(Generate),
     /// Make a scene from files of other programs: COMPAS JSON, OBJ, PLY, STL.
     ///
-    /// What was assumed or left out is said on standard error.
+    /// What was assumed or left out is said on standard error. Exit code 0 if a question about the
+    /// scene can be answered, 1 if not, 3 if mistakes were not looked for to the end.
     Import(Import),
     /// Verify a saved result from its scene (proofs without a solver), or look for mistakes in a
     /// scene.
     ///
     /// A result is verified from the scene inside it, or from --scene: forces are added up block by
     /// block, powers of the mechanism joint by joint, and every word of the answer is compared.
-    /// Exit code 0 if it is proved, 1 if it is refuted, 3 if it claims nothing. Of a scene, near
+    /// Exit code 0 if it is proved, 1 if it is refuted, 3 if it claims nothing or
+    /// what no theorem says could not be computed again. Of a scene, near
     /// misses, overlaps, loose blocks and mistakes of units are listed. Exit code 0 if there is
     /// none, 1 otherwise. Pictures show what is proved, or the scene.
     Check(Check),
@@ -412,6 +414,15 @@ pub struct Common {
     /// The first line only.
     #[arg(short, long, conflicts_with = "verbose")]
     pub quiet: bool,
+}
+
+/// When what has no answer but a yes or a no has to end.
+#[derive(Debug, Args)]
+pub struct TimeLimit {
+    /// End after this many seconds, counted from the start, with exit code 3 and what is known by
+    /// then.
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = positive)]
+    pub time_limit: Option<f64>,
 }
 
 /// What a scene may read beside itself.

@@ -3,7 +3,9 @@
 mod result;
 mod scene;
 
-use super::{args::Check, claim, exit::Exit, input, pictures::Pictures, terminal::Terminal};
+use super::{
+    args::Check, claim, deadline, exit::Exit, input, pictures::Pictures, terminal::Terminal,
+};
 use anyhow::bail;
 use voussoir::{
     error::{InputError, JsonPath},
@@ -20,9 +22,12 @@ pub fn run(args: &Check, terminal: &Terminal) -> anyhow::Result<Exit> {
     if pictures.printed() && args.json {
         bail!("standard output takes one of --svg, --vtk and --json");
     }
+    let deadline = deadline::of(args.limit.time_limit);
     let (name, bytes) = input::bytes(&args.file)?;
     match std::str::from_utf8(&bytes).ok().filter(|text| read::is_result(text)) {
-        Some(text) => result::run(&read::read_str(name, text)?, args, &pictures, terminal),
+        Some(text) => {
+            result::run(&read::read_str(name, text)?, args, deadline, &pictures, terminal)
+        }
         None if args.scene.is_some() => {
             let error = InputError::at(
                 JsonPath::root(),
@@ -37,7 +42,7 @@ pub fn run(args: &Check, terminal: &Terminal) -> anyhow::Result<Exit> {
         None => {
             let (scene, source, said) =
                 input::scene_of(&args.file, name, bytes, args.outside.reach())?;
-            scene::run(&scene, &source, said, args, &pictures, terminal)
+            scene::run((&scene, &source, said), args, deadline, &pictures, terminal)
         }
     }
 }

@@ -5,17 +5,19 @@ use crate::cli::{
     exit::Exit,
     input,
     pictures::Pictures,
+    progress::Stage,
     terminal::{self, Terminal},
 };
 use voussoir::{
-    interface::prepare,
-    proof::{Saved, VerificationFile, verify},
+    deadline::Deadline,
+    proof::{Saved, Solvers, VerificationFile, verify::verify_model},
     report::{self, text, view::View},
 };
 
 pub fn run(
     saved: &Saved,
     args: &Check,
+    deadline: Deadline,
     pictures: &Pictures,
     terminal: &Terminal,
 ) -> anyhow::Result<Exit> {
@@ -23,15 +25,15 @@ pub fn run(
         args.scene.as_deref().map(|path| input::scene(path, args.outside.reach())).transpose()?;
     terminal::notes(other.iter().flat_map(|(.., said)| said));
     let scene = other.as_ref().map_or(&saved.scene, |(scene, ..)| scene);
-    let located = |e: voussoir::error::InputError| match &other {
-        Some((_, source, _)) => source.located(e),
-        None => e,
-    };
-    let verified = verify(saved, scene).map_err(located)?;
+    let source = other.as_ref().map(|(_, source, _)| source);
+    let model = input::prepared(scene, source, deadline)?;
+    let stage = Stage::begin(true, "verifying");
+    let verified = verify_model(saved, scene, &model, &Solvers { deadline });
+    drop(stage);
     // What is refuted is not drawn.
     if let Some(file) = verified.file.as_ref().filter(|_| pictures.wanted() && !verified.refuted())
     {
-        pictures.write(&View::new(&prepare(scene).map_err(located)?, file, Vec::new())?)?;
+        pictures.write(&View::new(&model, file, Vec::new())?)?;
     }
     if args.json {
         terminal::print(&report::json::pretty(&VerificationFile::new(&scene.name, &verified))?)?;

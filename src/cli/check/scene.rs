@@ -3,25 +3,25 @@
 use crate::cli::{
     args::Check,
     exit::Exit,
+    input,
     pictures::Pictures,
     terminal::{self, Terminal},
 };
 use voussoir::{
+    deadline::Deadline,
     error::Finding,
-    interface::prepare,
     report::{self, Inspection, text, view::View},
     scene::{Scene, Source},
 };
 
 pub fn run(
-    scene: &Scene,
-    source: &Source,
-    said: Vec<Finding>,
+    (scene, source, said): (&Scene, &Source, Vec<Finding>),
     args: &Check,
+    deadline: Deadline,
     pictures: &Pictures,
     terminal: &Terminal,
 ) -> anyhow::Result<Exit> {
-    let mut model = prepare(scene).map_err(|e| source.located(e))?;
+    let mut model = input::prepared(scene, Some(source), deadline)?;
     model.assembly.said = said;
     let (mistakes, notes): (Vec<Finding>, Vec<Finding>) =
         model.findings().cloned().partition(|f| f.code.is_mistake());

@@ -15,8 +15,11 @@ pub fn run(args: &Task) -> anyhow::Result<Exit> {
     };
     let folder = Folder::open(&args.folder).with_context(seen)?;
     let sweep = folder.sweep()?;
-    let options =
-        RunOptions { shard: args.shard, threads: args.threads.map(usize::from), restart: false };
+    let options = RunOptions {
+        shard: args.shard,
+        threads: args.threads.map(terminal::threads),
+        restart: false,
+    };
     let (number, of) = args.shard.numbers();
     let name = format!("task-{number:0width$}", width = of.to_string().len());
     let done = run_in(&sweep, &folder, &name, &options, &|_| {})?;

@@ -15,6 +15,7 @@ use super::{
     body::{BoundedBlock, Bounds, Form, Solidity},
     detect_candidates::candidates,
     detect_rims,
+    detect_twice::Heaps,
     faces::{self, Closing},
     features, given,
     limits::Limits,
@@ -63,10 +64,14 @@ pub fn detect_until(
             .push(given::interface(g, &Limits::of(&bodies[g.a], &bodies[g.b], &assembly.contact)));
     }
 
+    // Of blocks in one place the first alone is looked at.
+    let named = assembly.given.iter().flat_map(|g| [g.a, g.b]).collect();
+    let heaps = Heaps::find(&bodies, &named);
+    let looked = |i: usize| !heaps.is_again(i);
     let mut tally = Tally::default();
     let mut pairs = Vec::new();
     for (looked_at, (a, b, limits)) in
-        candidates(&bodies, &assembly.contact)?.into_iter().enumerate()
+        candidates(&bodies, &looked, &assembly.contact)?.into_iter().enumerate()
     {
         if is_over() {
             let text = format!(
@@ -84,6 +89,8 @@ pub fn detect_until(
     take_apart(&mut pairs, &mut tally, assembly);
 
     detect_rims::meet(&mut pairs, &bodies);
+    heaps.spread(&mut pairs, &assembly.blocks)?;
+    heaps.all().into_iter().for_each(|heap| tally.in_one_place(heap));
     detect_rims::name_normals(&mut pairs, &normals, assembly)?;
 
     let (mut points, mut apart) = (0, Vec::new());
@@ -197,7 +204,9 @@ fn meet(a: &BoundedBlock, b: &BoundedBlock, limits: &Limits) -> Meeting {
     match (&a.shape, &b.shape) {
         (Form::Polyhedron(p), Form::Polyhedron(q)) => polyhedra(a, p, b, q, limits),
         (Form::Balls(one), Form::Balls(other)) => {
-            round(spheres::balls_balls(one, other, limits), 1.0, limits)
+            let twice = spheres::is_twice(one, other, limits);
+            let meeting = round(spheres::balls_balls(one, other, limits), 1.0, limits);
+            Meeting { twice: twice && meeting.overlap.is_some(), ..meeting }
         }
         (Form::Balls(balls), Form::Polyhedron(q)) => {
             round(spheres::balls_polyhedron(balls, q, limits), 1.0, limits)

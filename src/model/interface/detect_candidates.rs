@@ -20,25 +20,27 @@ use parry3d::{
 };
 use scene::ContactSpec;
 
-/// Pairs `(a, b)`, `a < b`, ascending, whose boxes are within the reach of near misses of each
+/// Pairs `(a, b)`, `a < b`, ascending, of blocks to be looked at whose boxes are within the reach of near misses of each
 /// other.
 ///
 /// # Errors
 /// There are more than can be looked at.
 pub(super) fn candidates(
     bodies: &[BoundedBlock],
+    looked: &dyn Fn(usize) -> bool,
     spec: &ContactSpec,
 ) -> Result<Vec<(usize, usize, Limits)>, InputError> {
     let reach = limits::near(spec);
     let loose = |b: &BoundedBlock| {
         aabb(&b.bounds.loosened(reach * b.block.size + COORDINATE_ROUNDING * b.bounds.reach()))
     };
-    let boxes: Vec<Aabb> = bodies.iter().map(loose).collect();
+    let list: Vec<usize> = (0..bodies.len()).filter(|&i| looked(i)).collect();
+    let boxes: Vec<Aabb> = list.iter().map(|&i| loose(&bodies[i])).collect();
     let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
     let mut pairs = Vec::new();
-    for (a, body) in bodies.iter().enumerate() {
-        let start = pairs.len();
-        for b in tree.intersect_aabb(&boxes[a]).map(|b| b as usize).filter(|&b| b > a) {
+    for (&a, around) in list.iter().zip(&boxes) {
+        let (body, start) = (&bodies[a], pairs.len());
+        for b in tree.intersect_aabb(around).map(|k| list[k as usize]).filter(|&b| b > a) {
             let limits = Limits::of(body, &bodies[b], spec);
             if body.bounds.distance(&bodies[b].bounds) <= limits.near {
                 pairs.push((a, b, limits));

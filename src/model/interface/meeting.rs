@@ -18,7 +18,7 @@ pub(super) struct Pair {
 }
 
 /// What two blocks have to do with each other.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Meeting {
     pub contacts: Vec<Contact>,
     pub near: Option<Near>,
@@ -46,6 +46,7 @@ pub(super) struct Contact {
 }
 
 /// A near miss; spheres have no plane.
+#[derive(Clone)]
 pub(super) struct Near {
     pub gap: f64,
     pub closing: Closing,
@@ -53,6 +54,7 @@ pub(super) struct Near {
 }
 
 /// An overlap deeper than the tolerance.
+#[derive(Clone)]
 pub(super) struct Overlap {
     pub depth: f64,
     /// What would join the blocks, if not too far.

@@ -9,6 +9,7 @@ mod body;
 mod detect;
 mod detect_candidates;
 mod detect_rims;
+mod detect_twice;
 mod faces;
 mod features;
 mod given;

@@ -50,6 +50,15 @@ impl Meeting {
     }
 }
 
+/// Whether every member of each lies at one of the other: the same block, drawn twice.
+pub(super) fn is_twice(one: &[Ball], other: &[Ball], limits: &Limits) -> bool {
+    let within = |one: &[Ball], other: &[Ball]| {
+        one.iter()
+            .all(|(p, r)| other.iter().any(|(q, s)| (p - q).norm() + (r - s).abs() <= limits.gap))
+    };
+    one.len() == other.len() && within(one, other) && within(other, one)
+}
+
 /// What members `(centre, radius)` of two blocks have to do with each other.
 pub(super) fn balls_balls(one: &[Ball], other: &[Ball], limits: &Limits) -> Meeting {
     if let ([a], [b]) = (one, other) {

@@ -24,6 +24,8 @@ pub(super) struct Tally {
     flattened: Vec<(usize, usize)>,
     held_apart: Vec<(usize, usize)>,
     twice: Vec<(usize, usize)>,
+    /// Most blocks that are the same to the last bit.
+    heap: Vec<usize>,
 }
 
 /// What keeps two blocks from touching.
@@ -71,6 +73,14 @@ impl Tally {
 
     pub fn twice(&mut self, a: usize, b: usize) {
         self.twice.push((a, b));
+    }
+
+    /// Blocks that are the same to the last bit.
+    pub fn in_one_place(&mut self, heap: &[usize]) {
+        self.twice.extend(heap[1..].iter().map(|&again| (heap[0], again)));
+        if heap.len() > self.heap.len() {
+            self.heap = heap.to_vec();
+        }
     }
 
     pub fn flattened(&mut self, a: usize, b: usize) {
@@ -153,6 +163,20 @@ impl Tally {
     fn drawn_twice(&self, assembly: &Assembly) -> Option<Finding> {
         let &(a, b) = self.twice.first()?;
         let (one, other) = (&assembly.blocks[a].id, &assembly.blocks[b].id);
+        if let [first, .., last] = self.heap[..]
+            && self.heap.len() > 2
+        {
+            let [first, last] = [first, last].map(|i| &assembly.blocks[i].id);
+            let n = self.heap.len();
+            let more = match self.twice.len() + 1 - n {
+                0 => String::new(),
+                more => format!(" ({more} others are drawn more than once, too)"),
+            };
+            let text = format!(
+                "{n} blocks lie in one place, {first:?} to {last:?}, corner for corner{more}: all weigh, and they do not touch each other; keep one of them"
+            );
+            return Some(Finding::new(FindingCode::Twice, text));
+        }
         let more = match self.twice.len() {
             1 => String::new(),
             n => format!(" (and {} more alike)", n - 1),

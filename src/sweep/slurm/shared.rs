@@ -2,7 +2,7 @@
 //! anything there: the kind of the file system, and whether the nodes are this machine.
 
 use super::hosts;
-use base::error::SlurmError;
+use base::{error::SlurmError, files};
 use std::path::Path;
 
 /// File systems that lie on disks or in the memory of one machine. What is not named here counts as
@@ -19,7 +19,7 @@ const LOCAL: [&str; 20] = [
 /// The folder lies on a disk of this machine, and a node is another one; or Slurm does not answer.
 pub fn require_shared(folder: &Path, partition: &str) -> Result<(), SlurmError> {
     let parent = folder.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let read = |file: &str| std::fs::read_to_string(file).unwrap_or_default();
+    let read = |file: &str| files::of_system(file).unwrap_or_default();
     let Ok(parent) = parent.canonicalize() else { return Ok(()) };
     let Some(mount) = mount_of(&parent.to_string_lossy(), &read("/proc/self/mountinfo")) else {
         return Ok(());

@@ -41,6 +41,8 @@ fn pipes_devices_and_folders_are_refused_at_once_wherever_a_file_is_read() {
             &["sweep", "plan.json", "-o", odd],
             &["study", "--extreme", "--keep", odd],
             &["repose", "drain", "--question", "repose", "--keep", odd],
+            &["settle", "wall.json", "--cracks", odd],
+            &["settle", "wall.json", "--move", "base=0.01,0,0", "--from", odd],
         ] {
             let output = at_once(at, args);
             expect(USAGE, &output);

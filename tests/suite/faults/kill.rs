@@ -1,10 +1,11 @@
 //! Kills and interrupts at any moment.
 
 use super::{command, desk, expect, files, rows, run};
+use serde_json::Value;
 use std::{
     fs,
     path::Path,
-    process::{Child, ExitStatus, Stdio},
+    process::{Child, Command, ExitStatus, Stdio},
     time::{Duration, Instant},
 };
 
@@ -257,5 +258,96 @@ fn a_study_that_is_interrupted_leaves_no_half_table() {
         assert!(status.success() || !desk.path().join("study.csv").exists());
         assert!(files(desk.path()).iter().all(|f| !f.starts_with('.')));
         let _ = fs::remove_file(desk.path().join("study.csv"));
+    }
+}
+
+/// Two hundred kills at random moments, and the same bytes in the end. Long: `cargo test --test suite
+/// -- --ignored two_hundred_kills`, with the program of the trials built before.
+#[test]
+#[ignore = "takes minutes"]
+fn two_hundred_kills_leave_what_one_go_leaves() {
+    let desk = desk(5, 4, 60);
+    let arch = concat!(env!("CARGO_MANIFEST_DIR"), "/structures/spreading-arch.json");
+    fs::copy(arch, desk.path().join("arch.json")).unwrap();
+    let trials = Path::new(env!("CARGO_BIN_EXE_voussoir")).with_file_name("trials");
+    let sweep = ["sweep", "plan.json", "--quiet", "--threads", "2", "-o"];
+    let settle = ["settle", "arch.json", "--move", "springer_left=0.1,0,0", "--json", "--keep"];
+    let heap =
+        ["grains=60", "size=[6,4]", "--question", "repose", "--quiet", "--json", "--seeds", "2"];
+    let repose = [&["repose", "drain"], &heap[..], &["--keep"]].concat();
+    let soak = ["soak", "40", "--json", "--keep"];
+    let own = env!("CARGO_BIN_EXE_voussoir");
+    let all =
+        [(own, &sweep[..]), (own, &settle), (own, &repose), (trials.to_str().unwrap(), &soak)];
+    for (program, args) in all {
+        if !Path::new(program).exists() {
+            crate::skipped("the program of the trials is not built");
+            continue;
+        }
+        let start = |file: &str| {
+            Command::new(program)
+                .current_dir(desk.path())
+                .args(args)
+                .arg(file)
+                .stdout(Stdio::piped())
+                .stderr(Stdio::null())
+                .spawn()
+                .unwrap()
+        };
+        let begun = Instant::now();
+        let direct = start("direct").wait_with_output().unwrap();
+        let time = begun.elapsed();
+        for k in 0..50_u32 {
+            let mut child = start("kept");
+            // From its first moments to a whole run, evenly.
+            std::thread::sleep(time.mul_f64(f64::from(k * 37 % 50) / 50.0));
+            signal(&mut child, if k % 2 == 0 { libc::SIGKILL } else { libc::SIGINT });
+        }
+        let resumed = start("kept").wait_with_output().unwrap();
+        assert_eq!(resumed.status.code(), direct.status.code(), "{args:?}");
+        let timeless = |bytes: &[u8]| -> Vec<String> {
+            let text = String::from_utf8_lossy(bytes).into_owned();
+            let untimed = |line: &str| {
+                let line = line.split("\"sum\"").next().unwrap_or_default();
+                let mut value = serde_json::from_str(line).unwrap_or_default();
+                without_times(&mut value);
+                value.to_string()
+            };
+            let mut lines: Vec<String> = match serde_json::from_str::<Value>(&text) {
+                Ok(_) => vec![untimed(&text)],
+                Err(_) => text.lines().map(untimed).collect(),
+            };
+            lines.sort();
+            lines
+        };
+        match args[0] {
+            "sweep" => {
+                assert_eq!(rows(&desk.path().join("kept")), rows(&desk.path().join("direct")))
+            }
+            _ => assert!(timeless(&resumed.stdout) == timeless(&direct.stdout), "{args:?}"),
+        }
+    }
+}
+
+/// Takes times and memory out of a value.
+fn without_times(value: &mut Value) {
+    match value {
+        Value::Object(map) => {
+            let timed = [
+                "seconds",
+                "timings",
+                "peak_memory",
+                "solve",
+                "read",
+                "check",
+                "detect",
+                "work",
+                "trace",
+            ];
+            map.retain(|key, _| !timed.contains(&key.as_str()));
+            map.values_mut().for_each(without_times);
+        }
+        Value::Array(list) => list.iter_mut().for_each(without_times),
+        _ => {}
     }
 }

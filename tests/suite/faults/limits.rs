@@ -50,7 +50,7 @@ fn what_asks_for_too_much_is_refused_before_it_is_taken() {
         json!({ "format": "voussoir-scene/1", "joints": { "default": { "friction": 0.6 } }, "templates": templates }).to_string()
     };
     let wall = |courses: u64, k: usize| json!({ "wall": { "size": [1, 1, 1], "courses": courses, "blocks": 999, "prefix": format!("w{k}_"), "at": [k * 10_000, 0, 0] } });
-    let box_at = |k: usize| json!({ "id": format!("b{k}"), "shape": { "box": { "size": [1, 1, 1] } }, "support": k == 0 });
+    let box_at = |k: usize| json!({ "id": format!("b{k}"), "shape": { "box": { "size": [1, 1, 1] } }, "at": [1e-4 * k as f64, 0, 0], "support": k == 0 });
     let cases = [
         ("a count", scene(json!([wall(1_000_000_000, 0)])), "templates[0].wall.courses: makes 1000000001 × 1000 blocks, more than 1000000"),
         ("a template beyond the memory", scene(json!([wall(900, 0)])), "would take about 5.2 GiB of memory; 200 MiB are allowed"),
@@ -174,4 +174,92 @@ fn the_time_limit_holds_and_the_best_bracket_so_far_is_the_answer() {
             assert!(answer["status"].is_string(), "{answer}");
         }
     }
+}
+
+/// A floor, and boxes on it, each moved by `step` from the one before.
+fn heap(count: usize, step: f64) -> String {
+    let floor = json!({ "id": "floor", "shape": { "box": { "size": [9, 9, 1] } }, "at": [0, 0, -0.5], "support": true });
+    let one = |k: usize| json!({ "id": format!("b{k}"), "shape": { "box": { "size": [1, 1, 1] } }, "at": [step * k as f64, 0, 0.5] });
+    let blocks: Vec<Value> = std::iter::once(floor).chain((0..count).map(one)).collect();
+    json!({ "format": "voussoir-scene/1", "joints": { "default": { "friction": 0.6 } }, "blocks": blocks }).to_string()
+}
+
+#[test]
+fn blocks_in_one_place_are_one_finding_and_cost_no_more_than_elsewhere() {
+    let desk = desk(1, 1, 2);
+    fs::write(desk.path().join("heap.json"), heap(20_000, 0.0)).unwrap();
+    // 200 million pairs, looked at one by one, would take an hour.
+    let output = run(desk.path(), &["check", "heap.json", "--time-limit", "60"]);
+    expect(1, &output);
+    let told = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(told.contains("20000 blocks lie in one place, \"b0\" to \"b19999\""), "{told}");
+    // Each touches what the first touches, and none the others.
+    fs::write(desk.path().join("heap.json"), heap(3, 0.0)).unwrap();
+    let output = run(desk.path(), &["check", "heap.json", "--json"]);
+    let model: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let faces = model["interfaces"].as_array().unwrap();
+    let pairs: Vec<&Value> = faces.iter().map(|f| &f["between"]).collect();
+    assert_eq!(
+        json!(pairs),
+        json!([["floor", "b0"], ["floor", "b1"], ["floor", "b2"]]),
+        "{model:.2000}"
+    );
+    expect(0, &run(desk.path(), &["assess", "heap.json"]));
+}
+
+#[test]
+fn check_and_import_end_in_time() {
+    let desk = desk(1, 1, 2);
+    fs::write(desk.path().join("heap.json"), heap(2000, 1e-4)).unwrap();
+    let corners = |x: f64| -> String {
+        let at = |k: u8| [k & 1, k >> 1 & 1, k >> 2].map(f64::from);
+        let line = |[a, b, c]: [f64; 3]| format!("v {} {b} {c}\n", a + x);
+        (0..8).map(at).map(line).collect()
+    };
+    let faces = |n: usize| -> String {
+        let all =
+            [[1, 3, 4, 2], [5, 6, 8, 7], [1, 2, 6, 5], [3, 7, 8, 4], [1, 5, 7, 3], [2, 4, 8, 6]];
+        let line = |f: [usize; 4]| format!("f {}\n", f.map(|v| (v + n).to_string()).join(" "));
+        all.map(line).concat()
+    };
+    let blocks: String = (0..2000)
+        .map(|k| format!("o b{k}\n{}{}", corners(1e-4 * k as f64), faces(8 * k)))
+        .collect();
+    fs::write(desk.path().join("heap.obj"), blocks).unwrap();
+    for args in [
+        &["check", "heap.json"][..],
+        &["import", "heap.obj", "--support", "b0", "--friction", "0.6", "-o", "made.json"],
+    ] {
+        let start = Instant::now();
+        let output = run(desk.path(), &[args, &["--time-limit", "2"]].concat());
+        expect(UNDECIDED, &output);
+        assert!(start.elapsed() < Duration::from_secs(6), "{args:?}: {:?}", start.elapsed());
+        assert!(said(&output).contains("the time was up after"), "{}", said(&output));
+    }
+    // What was read is there all the same.
+    assert!(fs::metadata(desk.path().join("made.json")).is_ok());
+    // What is not computed again in time stays open, and is not refuted.
+    let save = ["simulate", "wall.json", "--fine", "--to-the-end", "--skip-verdict", "--save", "r"];
+    run(desk.path(), &save);
+    let output = run(desk.path(), &["check", "r", "--time-limit", "0.02"]);
+    assert!([0, UNDECIDED].contains(&output.status.code().unwrap()), "{}", said(&output));
+}
+
+#[test]
+fn more_threads_than_the_machine_bears_are_not_started() {
+    let desk = desk(2, 2, 4);
+    let output = run(desk.path(), &["simulate", "wall.json", "--fast", "--threads", "256"]);
+    let most = 4 * std::thread::available_parallelism().unwrap().get();
+    if most < 256 {
+        assert!(
+            said(&output).contains(&format!("--threads 256: {most} threads")),
+            "{}",
+            said(&output)
+        );
+    }
+    let mut command = command(desk.path());
+    let output = command.args(["assess", "wall.json"]).env("RAYON_NUM_THREADS", "100000").output();
+    let output = output.unwrap();
+    expect(0, &output);
+    assert!(said(&output).contains(&format!("RAYON_NUM_THREADS 100000: {most} threads")));
 }

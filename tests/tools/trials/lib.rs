@@ -6,7 +6,8 @@
 //! * [`edges`]: blocks that meet at edges and corners, held against the same with flats there;
 //! * [`alike`]: each scene beside its mirror image, a larger, a moved and a renamed one, every question;
 //! * [`cross`]: each scene asked in several ways that must give one answer;
-//! * [`forge`]: results changed into false ones, all of which must be refused.
+//! * [`forge`]: results changed into false ones, all of which must be refused;
+//! * [`fuzz`]: inputs of every reader changed at random.
 
 #![forbid(unsafe_code)]
 
@@ -14,5 +15,6 @@ pub mod alike;
 pub mod cross;
 pub mod edges;
 pub mod forge;
+pub mod fuzz;
 mod random;
 pub mod soak;

@@ -5,8 +5,8 @@ use clap::{Args, Parser, Subcommand};
 use report::{json, text::Layout};
 use serde::Serialize;
 use serde_json::Value;
-use std::{path::PathBuf, process::ExitCode};
-use trials::{alike, cross, edges, forge, soak};
+use std::{io::Write, path::PathBuf, process::ExitCode};
+use trials::{alike, cross, edges, forge, fuzz, soak};
 
 /// Trials of the whole on random scenes; exit code 1 where anything is wrong.
 #[derive(Parser)]
@@ -29,6 +29,8 @@ enum Trial {
     Alike(Options),
     /// The results of every scene changed into false claims, some two hundred a scene.
     Forge(Options),
+    /// Inputs of every reader changed at random: so many, not scenes.
+    Fuzz(Options),
 }
 
 #[derive(Args)]
@@ -79,13 +81,21 @@ impl Options {
 
 fn main() -> anyhow::Result<ExitCode> {
     let Cli { trial } = Cli::parse();
-    let (Trial::Soak(o) | Trial::Cross(o) | Trial::Edges(o) | Trial::Alike(o) | Trial::Forge(o)) =
-        &trial;
+    let (Trial::Soak(o)
+    | Trial::Cross(o)
+    | Trial::Edges(o)
+    | Trial::Alike(o)
+    | Trial::Forge(o)
+    | Trial::Fuzz(o)) = &trial;
     if o.dump.as_ref().is_some_and(|folder| !folder.is_dir()) {
         bail!("--dump: there is no such folder");
     }
     let (seed, count, verbose, layout) = (o.seed, o.count, o.verbose, Layout::default());
     let keep = o.keep.as_deref();
+    if let (Some(number), Trial::Fuzz(_)) = (o.only, &trial) {
+        std::io::stdout().write_all(&fuzz::one(seed, number)?.1)?;
+        return Ok(ExitCode::SUCCESS);
+    }
     if let Some(index) = o.only {
         let scene = match trial {
             Trial::Soak(_) => soak::scene(seed, index)?.0,
@@ -122,6 +132,11 @@ fn main() -> anyhow::Result<ExitCode> {
             let list = alike::run(seed, count, kept.as_ref(), |_| {})?;
             let wrong = list.iter().any(alike::Alike::is_wrong);
             o.tell(&list, wrong, [], alike::text(&list, seed, verbose, layout))
+        }
+        Trial::Fuzz(_) => {
+            let list = fuzz::run(seed, count, |n| eprint!("\r{n}"))?;
+            let wrong = list.iter().any(fuzz::Fuzzed::is_wrong);
+            o.tell(&list, wrong, [], fuzz::text(&list, seed))
         }
         Trial::Forge(_) => {
             let kept = keep.map(|path| forge::keep(path, seed)).transpose()?;

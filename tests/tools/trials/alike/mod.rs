@@ -309,7 +309,7 @@ fn answered(
         let text = json::pretty(&file).unwrap_or_default();
         let fails = match read_str("result", text.as_str()) {
             Ok(read) => {
-                let found = verify_model(&read, scene, &model, &Solvers);
+                let found = verify_model(&read, scene, &model, &Solvers::default());
                 let parts = found.parts.iter().flat_map(|(_, f)| &f.fails);
                 found.refuted().then(|| parts.cloned().collect::<Vec<_>>().join(", "))
             }

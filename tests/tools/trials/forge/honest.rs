@@ -39,7 +39,7 @@ pub(super) fn results(scene: &Scene, turn: usize) -> Result<Vec<Honest>, InputEr
         // nothing pushes.
         let Some((answer, file)) = answered(&question, scene, &model) else { continue };
         let Ok(saved) = read_str("honest", file.to_string()) else { continue };
-        if verify_model(&saved, scene, &model, &Solvers).proved() {
+        if verify_model(&saved, scene, &model, &Solvers::default()).proved() {
             let limit = match answer {
                 Answer::Limit(l) => Some(*l),
                 _ => None,

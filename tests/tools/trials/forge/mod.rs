@@ -189,7 +189,7 @@ fn forge(
 fn lies(part: Part, file: &Value) -> Option<String> {
     let saved = read_str("forged", file.to_string()).ok()?;
     let model = prepare(&saved.scene).ok()?;
-    if !verify_model(&saved, &saved.scene, &model, &Solvers).proved() {
+    if !verify_model(&saved, &saved.scene, &model, &Solvers::default()).proved() {
         return None;
     }
     match part {
@@ -272,7 +272,7 @@ mod tests {
     fn is_proved(file: &Value) -> bool {
         let saved = read_str("honest", file.to_string()).unwrap();
         let model = prepare(&saved.scene).unwrap();
-        verify_model(&saved, &saved.scene, &model, &Solvers).proved()
+        verify_model(&saved, &saved.scene, &model, &Solvers::default()).proved()
     }
 
     #[test]
