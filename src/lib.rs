@@ -119,7 +119,7 @@
 //! | rates | (velocity of the centre of mass; spin), power-conjugate to wrenches; contacts open at `v_n > 0` |
 //! | gap | > 0 open, < 0 overlap |
 //! | equilibrium | `A f + w + λ ℓ = 0`: contact forces, dead load, live load |
-//! | unbalance | in multiples of each block's own load (g) |
+//! | equilibrium error | in multiples of each block's own load (g) |
 
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]

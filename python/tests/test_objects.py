@@ -238,7 +238,7 @@ def test_templates_are_those_of_files(structures: Path) -> None:
     same = voussoir.load(path).to_dict()
     del same["source"]
     assert built.to_dict() == same
-    assert voussoir.assess(built).unbalance == voussoir.assess(path).unbalance
+    assert voussoir.assess(built).equilibrium_error == voussoir.assess(path).equilibrium_error
     with pytest.raises(voussoir.InputError) as caught:
         built.template("arsch", voussoirs=3)
     assert caught.value.path.startswith("templates[1]")

@@ -50,7 +50,7 @@ def test_assess(path: Path) -> None:
     answer = voussoir.assess(path)
     assert without_time(answer.to_dict()) == without_time(expected)
     assert answer.verdict == expected["answer"]["verdict"]
-    assert answer.unbalance.upper == expected["answer"]["unbalance"]["upper"]
+    assert answer.equilibrium_error.upper == expected["answer"]["equilibrium_error"]["upper"]
     listed = [f for c in expected["evidence"]["assess"]["standing"]["certificate"]["forces"] for f in c["forces"]]
     assert answer.forces.tolist() == listed
 

@@ -127,7 +127,7 @@ def test_batches_are_the_single_answers() -> None:
     many = voussoir.assess_many(scenes, threads=2)
     single = [voussoir.assess(scene) for scene in scenes]
     assert many.verdicts.tolist() == [answer.verdict.value for answer in single]
-    assert many.unbalance[:, 1].tolist() == [answer.unbalance.upper for answer in single]
+    assert many.equilibrium_error[:, 1].tolist() == [answer.equilibrium_error.upper for answer in single]
     # The centre of the upper nine lies 5 shifts off that of the lowest, which is 0.2 m to its edge.
     assert many.stands.tolist() == [bool(5 * shift < 0.2) for shift in shifts]
     assert (many.margins[~many.stands] < -1e-6).all() and not many.errors

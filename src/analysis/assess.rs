@@ -36,9 +36,9 @@ use solve::{
 pub struct Assessment {
     /// Does it stand?
     pub verdict: Verdict,
-    /// Bracket of the least unbalance, in multiples of gravity.
-    pub unbalance: Bracket,
-    /// The unbalance that separates stable from unstable: [`tolerance::UNBALANCE`], or the rounding
+    /// Bracket of the least equilibrium error, in multiples of gravity.
+    pub equilibrium_error: Bracket,
+    /// The equilibrium error that separates stable from unstable: [`tolerance::EQUILIBRIUM_ERROR`], or the rounding
     /// of the scene's own coordinates where that is larger.
     pub threshold: f64,
     /// The part that decides, where there are several.
@@ -94,7 +94,7 @@ const LADDER: [Rung; 8] = [
     Rung { even: true, tolerance: 1e-12, engine: EngineSettings::clarabel(1e-9), ..Rung::RATES },
 ];
 
-/// How exactly a least unbalance is sought that is far from zero. Larger: forces and mechanism leave
+/// How exactly a least equilibrium error is sought that is far from zero. Larger: forces and mechanism leave
 /// more between the ends of its bracket. Smaller: large packings that fall take twice as many
 /// iterations.
 const FALLS: f64 = 1e-6;
@@ -135,12 +135,12 @@ pub(super) fn of_part(model: &Model, control: &Control) -> Assessment {
         return flat;
     }
     let every = with_normals(&wide, &Control { law: Law::Associative, ..*control });
-    let Assessment { rates, mechanism, unbalance, .. } = every;
+    let Assessment { rates, mechanism, equilibrium_error, .. } = every;
     match every.verdict {
-        Verdict::Unstable => Assessment { rates, mechanism, unbalance, ..flat },
+        Verdict::Unstable => Assessment { rates, mechanism, equilibrium_error, ..flat },
         _ => Assessment {
             verdict: Verdict::Undecided,
-            unbalance: Bracket { lower: 0.0, ..flat.unbalance },
+            equilibrium_error: Bracket { lower: 0.0, ..flat.equilibrium_error },
             mechanism: None,
             ..flat
         },
@@ -155,7 +155,7 @@ fn with_normals(model: &Model, control: &Control) -> Assessment {
     if let Some(answer) = by_statics(model, control.law) {
         return answer;
     }
-    let mut answer = least_unbalance(model, LiveLoad::Absent, control);
+    let mut answer = least_equilibrium_error(model, LiveLoad::Absent, control);
     answer.floating = floating(model);
     if answer.verdict == Verdict::Stable && control.law == Law::Coulomb {
         settle(model, control, &mut answer);
@@ -175,12 +175,12 @@ pub(super) fn wedges(model: &Model, (standing, base): (f64, &Forces), forces: &F
     claim::verify(model, &Claim::Unbounded { standing }, evidence).proved()
 }
 
-/// An answer that says nothing yet but these forces and the ends of the least unbalance.
+/// An answer that says nothing yet but these forces and the ends of the least equilibrium error.
 pub(super) fn from_forces(model: &Model, forces: Forces, [lower, upper]: [f64; 2]) -> Assessment {
     Assessment {
         verdict: Verdict::Undecided,
-        unbalance: Bracket { lower, upper },
-        threshold: tolerance::UNBALANCE,
+        equilibrium_error: Bracket { lower, upper },
+        threshold: tolerance::EQUILIBRIUM_ERROR,
         part: None,
         forces,
         load_factor: 0.0,
@@ -194,7 +194,7 @@ pub(super) fn from_forces(model: &Model, forces: Forces, [lower, upper]: [f64; 2
 }
 
 /// Where contacts form no closed chain, and each can carry what it has to, statics alone has the
-/// forces. What falls is left to the program, whose mechanism is the one of the least unbalance.
+/// forces. What falls is left to the program, whose mechanism is the one of the least equilibrium error.
 fn by_statics(model: &Model, law: Law) -> Option<Assessment> {
     let forest = Forest::of(model)?;
     let forces = (forest.fate() == Fate::Stands).then(|| forest.forces())??;
@@ -205,7 +205,7 @@ fn by_statics(model: &Model, law: Law) -> Option<Assessment> {
             Law::Associative => vec![format!("the program: {STATICS_ALONE}")],
             Law::Coulomb => vec![format!("{NO_STATE_NEEDED}, and any program: {STATICS_ALONE}")],
         },
-        ..from_forces(model, forces.clone(), [0.0, balance.unbalance])
+        ..from_forces(model, forces.clone(), [0.0, balance.equilibrium_error])
     })
 }
 
@@ -262,11 +262,11 @@ pub(super) fn falls_freely(model: &Model) -> Option<Assessment> {
     let count: usize = floating.iter().map(Vec::len).sum();
     Some(Assessment {
         verdict: Verdict::Unstable,
-        unbalance: Bracket {
+        equilibrium_error: Bracket {
             lower: kinematics.dead_power / kinematics.norm,
-            upper: statics.unbalance,
+            upper: statics.equilibrium_error,
         },
-        threshold: tolerance::UNBALANCE,
+        threshold: tolerance::EQUILIBRIUM_ERROR,
         part: None,
         mechanism: Some(mechanism::read(model, &rates)),
         forces,
@@ -282,7 +282,11 @@ pub(super) fn falls_freely(model: &Model) -> Option<Assessment> {
 }
 
 /// Program V down the ladder until its bracket decides.
-pub(super) fn least_unbalance(model: &Model, live: LiveLoad, control: &Control) -> Assessment {
+pub(super) fn least_equilibrium_error(
+    model: &Model,
+    live: LiveLoad,
+    control: &Control,
+) -> Assessment {
     let Model { assembly, interfaces, .. } = model;
     let options = StaticsOptions {
         keep_all: control.keep_all,
@@ -295,7 +299,7 @@ pub(super) fn least_unbalance(model: &Model, live: LiveLoad, control: &Control) 
     let unloaded = certificate::statics(model, &zero, 0.0);
     let mut answer = Assessment {
         left_out: base.left_out.clone(),
-        ..from_forces(model, zero, [0.0, unloaded.unbalance])
+        ..from_forces(model, zero, [0.0, unloaded.equilibrium_error])
     };
     let mut balanced = unloaded.balanced;
     // Bounds on crushing that one rung found hold for all.
@@ -321,7 +325,7 @@ pub(super) fn least_unbalance(model: &Model, live: LiveLoad, control: &Control) 
         let mut statics = step.scaled(&base);
         statics.sections = std::mem::take(&mut sections);
         let settings = Settings { where_positive: FALLS, ..step.settings(control.deadline) };
-        let build = |statics: &Statics| program::unbalance(statics, live, step.unknowns);
+        let build = |statics: &Statics| program::equilibrium_error(statics, live, step.unknowns);
         let mut done = run(model, &mut statics, build, &settings, None);
         let (mut lower, mut upper) = (0.0, f64::INFINITY);
         if let Some(mut c) = done.candidate.take() {
@@ -341,14 +345,14 @@ pub(super) fn least_unbalance(model: &Model, live: LiveLoad, control: &Control) 
             {
                 repair::cut(interfaces, &mut better);
                 let left = certificate::statics(model, &better, lambda);
-                if left.unbalance < s.unbalance {
+                if left.equilibrium_error < s.equilibrium_error {
                     (s, c.forces) = (left, better);
                 }
             }
             if !s.balanced {
                 s.balanced = existence::exists(model, &c.forces, lambda);
             }
-            upper = if s.is_within_strength() { s.unbalance } else { f64::INFINITY };
+            upper = if s.is_within_strength() { s.equilibrium_error } else { f64::INFINITY };
             let mut k = k;
             if !k.is_admissible(assembly)
                 && live == LiveLoad::Absent
@@ -362,17 +366,17 @@ pub(super) fn least_unbalance(model: &Model, live: LiveLoad, control: &Control) 
             if k.is_admissible(assembly) {
                 lower = ((k.gain() - k.slack - (lambda * k.live_power).abs()) / k.norm).max(0.0);
             }
-            if upper < answer.unbalance.upper {
-                (answer.unbalance.upper, answer.forces, answer.load_factor) =
+            if upper < answer.equilibrium_error.upper {
+                (answer.equilibrium_error.upper, answer.forces, answer.load_factor) =
                     (upper, c.forces, lambda);
                 balanced = s.balanced;
             }
-            if lower > answer.unbalance.lower {
-                (answer.unbalance.lower, answer.rates) = (lower, c.rates);
+            if lower > answer.equilibrium_error.lower {
+                (answer.equilibrium_error.lower, answer.rates) = (lower, c.rates);
             }
         }
         let name = format!(
-            "least unbalance in {}",
+            "least equilibrium error in {}",
             if step.unknowns == Unknowns::Forces { "forces" } else { "rates" }
         );
         answer.attempts.push(done.attempt(
@@ -383,11 +387,11 @@ pub(super) fn least_unbalance(model: &Model, live: LiveLoad, control: &Control) 
             [lower, upper],
         ));
         sections = statics.sections;
-        let b = answer.unbalance;
+        let b = answer.equilibrium_error;
         // Re-added without rounding, or the next attempt.
         answer.verdict = if balanced && (live != LiveLoad::Absent || holds(model, &answer.forces)) {
             Verdict::Stable
-        } else if b.lower > tolerance::UNBALANCE {
+        } else if b.lower > tolerance::EQUILIBRIUM_ERROR {
             Verdict::Unstable
         } else {
             Verdict::Undecided
@@ -399,14 +403,14 @@ pub(super) fn least_unbalance(model: &Model, live: LiveLoad, control: &Control) 
     if answer.verdict == Verdict::Unstable {
         // Half of the power is left to prove it with.
         let power = certificate::kinematics(model, &answer.rates, &no_forces(interfaces));
-        let most = 0.5 * (power.gain() - tolerance::UNBALANCE * power.norm);
+        let most = 0.5 * (power.gain() - tolerance::EQUILIBRIUM_ERROR * power.norm);
         let with_live = live == LiveLoad::AnyMultiple;
         if let Some(mended) =
             repair::admissible(model, &answer.rates, (0.0, most), control.deadline)
                 .filter(|_| !with_live)
         {
             let k = certificate::kinematics(model, &mended, &no_forces(interfaces));
-            (answer.unbalance.lower, answer.rates) = (k.gain() / k.norm, mended);
+            (answer.equilibrium_error.lower, answer.rates) = (k.gain() / k.norm, mended);
         }
         answer.mechanism = Some(mechanism::read(model, &answer.rates));
     }

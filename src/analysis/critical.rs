@@ -3,7 +3,7 @@
 //! The range is scanned first, since a verdict may flip more than once (a voussoir arch is not
 //! monotone in anything but its load). Between neighbours whose verdicts differ the flip is
 //! narrowed ([`critical_value`](super::critical_value)). A value at which the scene falls less than at both its
-//! neighbours may hide a window in which it stands: there the least unbalance is followed to its
+//! neighbours may hide a window in which it stands: there the least equilibrium error is followed to its
 //! lowest point. A window in which it falls, between two values at which it stands, has no such
 //! trace; only a finer scan finds it.
 
@@ -39,7 +39,7 @@ pub struct Range {
 pub struct Scanned {
     /// The value.
     pub value: f64,
-    /// Its verdict and least unbalance, or why there is no scene.
+    /// Its verdict and least equilibrium error, or why there is no scene.
     pub outcome: Result<(Verdict, f64), InputError>,
 }
 
@@ -113,8 +113,10 @@ pub fn critical(scene: &Scene, range: &Range, control: &Control) -> Result<Criti
             break;
         }
         let answer = ask(value, *control);
-        let outcome =
-            answer.as_ref().map(|p| (p.assessment.verdict, p.unbalance())).map_err(Clone::clone);
+        let outcome = answer
+            .as_ref()
+            .map(|p| (p.assessment.verdict, p.equilibrium_error()))
+            .map_err(Clone::clone);
         scan.push(Scanned { value, outcome });
         if let Ok(probe) = answer {
             if k == 0 || k + 1 == count {
@@ -140,7 +142,7 @@ pub fn critical(scene: &Scene, range: &Range, control: &Control) -> Result<Criti
     if !whole {
         for (at, window) in windows(&found, &mut |v| ask(v, statics)).into_iter().rev() {
             let with_law = ask(window.value, *control).unwrap_or(window);
-            notes.push(format!("a window between neighbours of the scan, found by following the least unbalance: {}", with_law.value));
+            notes.push(format!("a window between neighbours of the scan, found by following the least equilibrium error: {}", with_law.value));
             found.insert(at, with_law);
         }
     }
@@ -307,7 +309,7 @@ impl Narrowing<'_> {
         }
     }
 
-    /// Between a probe that falls and one that does not, by the least unbalance.
+    /// Between a probe that falls and one that does not, by the least equilibrium error.
     fn by_margin(&mut self, a: &Probe, b: &Probe) -> Result<Narrowed, InputError> {
         let [statics, full] = self.laws;
         let is_first = a.admissible() == Some(false);
@@ -396,7 +398,7 @@ fn windows(
     let mut list = Vec::new();
     for k in 1..found.len().saturating_sub(1) {
         let [a, b, c] = [&found[k - 1], &found[k], &found[k + 1]];
-        let t = Probe::unbalance;
+        let t = Probe::equilibrium_error;
         if [a, b, c].iter().any(|p| p.admissible() != Some(false)) || t(b) > t(a) || t(b) >= t(c) {
             continue;
         }
@@ -408,7 +410,7 @@ fn windows(
     list
 }
 
-/// Follows the unbalance downhill between three falling values; returns the first that stands.
+/// Follows the equilibrium error downhill between three falling values; returns the first that stands.
 fn lowest(
     a: &Probe,
     b: &Probe,
@@ -418,7 +420,7 @@ fn lowest(
     // Golden sections: the part kept at each step.
     const KEPT: f64 = 0.618_033_988_749_895;
     const STEPS: usize = 24;
-    let (mut low, mut middle, mut high) = (a.value, (b.value, b.unbalance()), c.value);
+    let (mut low, mut middle, mut high) = (a.value, (b.value, b.equilibrium_error()), c.value);
     for _ in 0..STEPS {
         let right = (high - middle.0).abs() > (middle.0 - low).abs();
         let value = if right {
@@ -430,7 +432,7 @@ fn lowest(
         if probe.admissible() == Some(true) {
             return Some(probe);
         }
-        let t = probe.unbalance();
+        let t = probe.equilibrium_error();
         match (t < middle.1, right) {
             (true, true) => (low, middle) = (middle.0, (value, t)),
             (true, false) => (high, middle) = (middle.0, (value, t)),
@@ -470,7 +472,7 @@ mod tests {
     }
 
     #[test]
-    fn the_zero_of_the_unbalance_is_far_closer_than_verdicts_can_tell() {
+    fn the_zero_of_the_equilibrium_error_is_far_closer_than_verdicts_can_tell() {
         // Five-hinge closed form for 16 straight voussoirs.
         let exact = 0.10707620314306167;
         let control = Control { law: Law::Associative, ..Control::default() };

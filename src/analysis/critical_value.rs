@@ -1,6 +1,6 @@
 //! Where a verdict flips between a value at which a scene falls and one at which it stands.
 //!
-//! On the falling side the least unbalance `t` (program V) measures how far the flip is: it grows
+//! On the falling side the least equilibrium error `t` (program V) measures how far the flip is: it grows
 //! linearly from zero with the distance. The zero of the secant through two falling points is
 //! therefore the value itself, with an error of the product of their distances, and far closer than
 //! the two verdicts can be told apart, which needs `t` above the tolerance. Where `t` does not
@@ -32,11 +32,11 @@ impl Probe {
         Probe { value, model, assessment }
     }
 
-    /// The least unbalance as its mechanism proves it. The attempts at a verdict end as soon as
+    /// The least equilibrium error as its mechanism proves it. The attempts at a verdict end as soon as
     /// that is enough, so that the upper end may still be far away; measured near the flip, the
     /// lower one holds to 1e-11 g.
-    pub fn unbalance(&self) -> f64 {
-        self.assessment.unbalance.lower
+    pub fn equilibrium_error(&self) -> f64 {
+        self.assessment.equilibrium_error.lower
     }
 
     /// Whether admissible forces exist; `None` where that is undecided.
@@ -58,7 +58,7 @@ pub struct Flip<A = Assessment> {
     pub falls: Probe<A>,
     /// The last value at which it stands, on the other.
     pub stands: Probe<A>,
-    /// Whether the value is the zero of the least unbalance; the middle of the two ends otherwise.
+    /// Whether the value is the zero of the least equilibrium error; the middle of the two ends otherwise.
     pub linear: bool,
     /// Scenes asked.
     pub probes: usize,
@@ -74,7 +74,7 @@ pub type Ask<'a> = dyn FnMut(f64) -> Result<Probe, InputError> + 'a;
 /// A scene between the two cannot be resolved.
 pub fn refine(ask: &mut Ask, falls: Probe, stands: Probe, least: f64) -> Result<Flip, InputError> {
     let mut search = Search { ask, falls, stands, falling: Vec::new(), least, probes: 0 };
-    search.falling.push((search.falls.value, search.falls.unbalance()));
+    search.falling.push((search.falls.value, search.falls.equilibrium_error()));
     let zero = search.zero()?;
     let slope = search.slope();
     let linear = zero.is_some_and(|z| search.reaches(z)) && slope > 0.0;
@@ -90,7 +90,7 @@ struct Search<'a, 'b> {
     ask: &'a mut Ask<'b>,
     falls: Probe,
     stands: Probe,
-    /// Value and unbalance of the falling points, the last ones last.
+    /// Value and equilibrium error of the falling points, the last ones last.
     falling: Vec<(f64, f64)>,
     least: f64,
     probes: usize,
@@ -102,7 +102,7 @@ const SHARE: f64 = 0.97;
 /// No point is laid nearer to the zero than this × the tolerance of a verdict. Smaller: what falls
 /// counts as standing. Larger: fewer digits.
 const NEAREST: f64 = 5.0;
-/// Scenes asked on the way to the zero. A well-behaved unbalance takes some eight, halving some
+/// Scenes asked on the way to the zero. A well-behaved equilibrium error takes some eight, halving some
 /// forty.
 const MOST: usize = 80;
 /// Scenes asked on each side of it.
@@ -116,7 +116,7 @@ impl Search<'_, '_> {
         match admissible {
             Some(true) => self.stands = probe,
             Some(false) => {
-                self.falling.push((value, probe.unbalance()));
+                self.falling.push((value, probe.equilibrium_error()));
                 self.falls = probe;
             }
             None => {}
@@ -135,16 +135,16 @@ impl Search<'_, '_> {
             || (zero - self.stands.value).abs() * self.slope() <= 2.0 * self.told()
     }
 
-    /// The unbalance that a verdict can tell from none.
+    /// The equilibrium error that a verdict can tell from none.
     fn told(&self) -> f64 {
-        self.falls.assessment.threshold.max(tolerance::UNBALANCE)
+        self.falls.assessment.threshold.max(tolerance::EQUILIBRIUM_ERROR)
     }
 
     fn scale(&self) -> f64 {
         self.falls.value.abs().max(self.stands.value.abs()).max(self.least)
     }
 
-    /// Growth of the unbalance away from the flip, per unit of the value; 0 where there are not two
+    /// Growth of the equilibrium error away from the flip, per unit of the value; 0 where there are not two
     /// points for it.
     fn slope(&self) -> f64 {
         match self.falling[..] {
@@ -159,7 +159,7 @@ impl Search<'_, '_> {
         Some(b - t * (b - a) / (t - s)).filter(|z| z.is_finite() && s > t)
     }
 
-    /// The zero of the unbalance; `None` where halving closed the range instead.
+    /// The zero of the equilibrium error; `None` where halving closed the range instead.
     fn zero(&mut self) -> Result<Option<f64>, InputError> {
         let tolerance = 0.1 * tolerance::CRITICAL_WIDTH;
         let (mut last, mut stuck) = (None, 0);
@@ -177,7 +177,9 @@ impl Search<'_, '_> {
             }
             // Below the tolerance of a verdict what falls a little counts as standing.
             let least = NEAREST * self.told();
-            if let Some(z) = secant.filter(|_| (1.0 - SHARE) * self.falls.unbalance() < least) {
+            if let Some(z) =
+                secant.filter(|_| (1.0 - SHARE) * self.falls.equilibrium_error() < least)
+            {
                 return Ok(Some(z));
             }
             let from_falls = secant
@@ -191,7 +193,7 @@ impl Search<'_, '_> {
                 Some(_) => {}
             }
             let left = (self.stands.value - self.falls.value).abs();
-            // A secant that leaves much of the unbalance is none.
+            // A secant that leaves much of the equilibrium error is none.
             let shrinks = matches!(self.falling[..], [.., (_, s), (_, t)] if t < 0.5 * s);
             stuck =
                 if left <= 0.5 * gap || (from_falls.is_some() && shrinks) { 0 } else { stuck + 1 };

@@ -103,7 +103,7 @@ impl About<'_> {
         if a.verdict != Verdict::Undecided {
             return None;
         }
-        let b = a.unbalance;
+        let b = a.equilibrium_error;
         // What dry friction leaves open is said first.
         if !self.late
             && a.state.is_none()
@@ -133,7 +133,7 @@ impl About<'_> {
                 return Doubt::new(
                     DoubtCause::OnTheLine,
                     format!(
-                        "the least unbalance lies between {:.0e} and {:.0e} of the weight, which may be none",
+                        "the least equilibrium error lies between {:.0e} and {:.0e} of the weight, which may be none",
                         b.lower, b.upper
                     ),
                     "change what is uncertain (friction, thickness) by 1 % to either side and ask both",

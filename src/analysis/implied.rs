@@ -104,11 +104,11 @@ fn share(wanted: &[Wrench], one: &[Wrench], other: &[Wrench]) -> Option<f64> {
 
 /// Forces as an answer that says no more than that they hold.
 fn standing(model: &Model, forces: Forces) -> Assessment {
-    let unbalance = certificate::statics(model, &forces, 0.0).unbalance;
+    let equilibrium_error = certificate::statics(model, &forces, 0.0).equilibrium_error;
     Assessment {
         verdict: Verdict::Stable,
         left_out: vec!["the program: forces that held other loads or joints hold these".into()],
-        ..from_forces(model, forces, [0.0, unbalance])
+        ..from_forces(model, forces, [0.0, equilibrium_error])
     }
 }
 
@@ -124,6 +124,6 @@ fn falling(model: &Model, a: &Assessment) -> Option<Assessment> {
         mechanism: Some(mechanism::read(model, &a.rates)),
         rates: a.rates.clone(),
         left_out: vec!["the program: a mechanism of other loads or joints is one of these".into()],
-        ..from_forces(model, a.forces.clone(), [k.dead_power / k.norm, statics.unbalance])
+        ..from_forces(model, a.forces.clone(), [k.dead_power / k.norm, statics.equilibrium_error])
     })
 }

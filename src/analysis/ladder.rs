@@ -212,7 +212,7 @@ mod tests {
         };
         let run = Run { candidate: None, solution, passed: None, size: [3, 4] };
         serde_json::to_value(run.attempt(
-            "least unbalance in forces".into(),
+            "least equilibrium error in forces".into(),
             1.0,
             step,
             None,

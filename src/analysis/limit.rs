@@ -8,7 +8,7 @@
 
 use super::{
     Proved,
-    assess::{least_unbalance, wedges},
+    assess::{least_equilibrium_error, wedges},
     flats::beside_flats,
     ladder::{Control, Rung, is_large, run, steps},
     parts,
@@ -255,7 +255,7 @@ const INWARDS: [f64; 3] = [0.0, 1e-8, 2e-7];
 /// mechanism that closes no joint, and forces at the lower end near which others balance exactly.
 /// At the limit itself forces have no room; mixed with a little of those that hold the scene at
 /// another load factor they have (`inside`, sought once). False where the forces leave too much
-/// unbalanced for a proof.
+/// out of balance for a proof.
 fn prove(
     model: &Model,
     control: &Control,
@@ -315,7 +315,7 @@ fn prove(
         }
         repair::cut(interfaces, &mut forces);
         let forces = existence::improved(model, &forces, lambda).unwrap_or(forces);
-        let left = certificate::statics(model, &forces, lambda).unbalance;
+        let left = certificate::statics(model, &forces, lambda).equilibrium_error;
         let exact = existence::exists(model, &forces, lambda);
         if exact || best.as_ref().is_none_or(|(least, ..)| left < *least) {
             best = Some((left, lambda, forces));
@@ -360,7 +360,7 @@ pub(super) fn carried(
 /// live load where it stands without; no forces where none are found.
 fn elsewhere(model: &Model, control: &Control) -> (f64, Forces) {
     for live in [LiveLoad::Absent, LiveLoad::AnyMultiple] {
-        let held = least_unbalance(model, live, control);
+        let held = least_equilibrium_error(model, live, control);
         if held.verdict == Verdict::Stable {
             return (held.load_factor, held.forces);
         }
@@ -421,7 +421,7 @@ fn climb(
             if k.behind(&c.forces) <= allowed {
                 upper = k.upper();
             }
-            if s.unbalance <= tolerance::LOOSE_BALANCE && s.is_within_strength() {
+            if s.equilibrium_error <= tolerance::LOOSE_BALANCE && s.is_within_strength() {
                 lower = lambda - hidden / k.live_power;
             }
         }
@@ -525,14 +525,14 @@ impl Formulation {
 }
 
 /// Joints with no more than this × the greatest force of all carry rounding, which does not balance
-/// blocks that no live load acts on; the first that is enough. Larger: loads are left unbalanced.
+/// blocks that no live load acts on; the first that is enough. Larger: loads are left out of balance.
 /// Smaller: rounding stays.
 const ROUNDING: [f64; 3] = [1e-13, 1e-11, 1e-9];
 
 /// Is there no load factor at all, or no limit to it? Returns true where that is the answer.
 fn diagnose(model: &Model, control: &Control, answer: &mut LoadFactor) -> bool {
     let Model { assembly, interfaces, .. } = model;
-    let any = least_unbalance(model, LiveLoad::AnyMultiple, control);
+    let any = least_equilibrium_error(model, LiveLoad::AnyMultiple, control);
     answer.attempts.extend(any.attempts.iter().cloned());
     if any.verdict == Verdict::Unstable {
         answer.outcome = Outcome::Impossible;
@@ -544,7 +544,7 @@ fn diagnose(model: &Model, control: &Control, answer: &mut LoadFactor) -> bool {
     // The live load in the size of the dead load, so that the same threshold applies.
     let (alone, natural) = claim::live_alone(assembly);
     let (unlimited, kept) = unlimited(interfaces);
-    let wedge = least_unbalance(&Model::new(alone, unlimited), LiveLoad::Absent, control);
+    let wedge = least_equilibrium_error(&Model::new(alone, unlimited), LiveLoad::Absent, control);
     answer.attempts.extend(wedge.attempts.iter().cloned());
     if wedge.verdict == Verdict::Stable && any.verdict == Verdict::Stable {
         answer.outcome = Outcome::Unbounded;

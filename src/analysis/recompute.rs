@@ -70,7 +70,7 @@ impl Recompute for Solvers {
     ) -> Option<Result<(Verdict, f64), InputError>> {
         let control = Control { law, ..self.control() };
         let probe = self.in_time(|| probe(scene, pointer, value, &control))?;
-        Some(probe.map(|p| (p.assessment.verdict, p.unbalance())))
+        Some(probe.map(|p| (p.assessment.verdict, p.equilibrium_error())))
     }
 
     fn closed(

@@ -1,6 +1,6 @@
 //! Evidence made exact: what an engine leaves outside by rounding is brought inside.
 //!
-//! *Forces* that lie outside their cones by rounding are cut to them; what that leaves unbalanced
+//! *Forces* that lie outside their cones by rounding are cut to them; what that leaves out of balance
 //! is rounding, and the proof that forces which balance exactly exist nearby covers it
 //! ([`existence`](check::verdict::exact::existence)).
 //!
@@ -44,7 +44,7 @@ pub(super) fn without(forces: &Forces, share: f64) -> Forces {
     forces.iter().map(kept).collect()
 }
 
-/// Forces cut to their cones, and further inside by this share. Larger: unbalances above rounding.
+/// Forces cut to their cones, and further inside by this share. Larger: equilibrium errors above rounding.
 /// Smaller: rounding of the cut itself.
 const CUT: f64 = 1e-14;
 
@@ -168,7 +168,7 @@ pub(super) fn at_rest(model: &Model, rates: &[Rate]) -> Vec<Rate> {
     };
     let still: Vec<Rate> = rates.iter().enumerate().map(rest).collect();
     let k = certificate::kinematics(model, &still, &no_forces(interfaces));
-    if k.is_admissible(assembly) && k.gain() > tolerance::UNBALANCE * k.norm {
+    if k.is_admissible(assembly) && k.gain() > tolerance::EQUILIBRIUM_ERROR * k.norm {
         still
     } else {
         rates.to_vec()

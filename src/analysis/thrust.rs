@@ -381,8 +381,8 @@ impl Problem<'_> {
                 .map(|r| Rate { velocity: r.velocity * self.total, spin: r.spin * self.total })
                 .collect();
             let p = self.at.bracket(model, self.extreme, &forces, &rates);
-            let balanced =
-                p.statics.unbalance <= tolerance::LOOSE_BALANCE && p.statics.is_within_strength();
+            let balanced = p.statics.equilibrium_error <= tolerance::LOOSE_BALANCE
+                && p.statics.is_within_strength();
             let (bound, reached) = if self.extreme == Extreme::Least { (0, 1) } else { (1, 0) };
             if p.is_admissible(self.total) {
                 ends[bound] = [p.lower, p.upper][bound];

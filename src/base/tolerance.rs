@@ -55,9 +55,9 @@ pub const SYMMETRY: f64 = 1e-11;
 pub const MECHANISM_REST: f64 = 1e-5;
 
 /// Out-of-balance acceleration, in multiples of gravity, below which a scene counts as balanced and
-/// above which as not. Larger: arches 1e-6 below their least thickness (unbalance 2e-7) pass as
+/// above which as not. Larger: arches 1e-6 below their least thickness (equilibrium error 2e-7) pass as
 /// stable. Smaller: the solver's last digits (1e-11) decide.
-pub const UNBALANCE: f64 = 1e-9;
+pub const EQUILIBRIUM_ERROR: f64 = 1e-9;
 
 /// A load factor is found when its bracket is narrower than this × |λ| (plus
 /// [`LOAD_FACTOR_FLOOR`]). Larger: answers with fewer digits. Smaller: walls of 10,000 blocks,
@@ -113,7 +113,7 @@ pub const MIXED_LOADS: f64 = 1e-9;
 /// interpenetrates could pass as a proof.
 pub const FORCE_CAP: f64 = 3.0;
 
-/// Forces that leave more than this unbalanced on some block, in multiples of gravity, bound no
+/// Forces that leave more than this out of balance on some block, in multiples of gravity, bound no
 /// load factor: the first-order correction by the mechanism no longer holds. Larger: brackets that
 /// do not contain the answer. Smaller: tall walls, whose forces are hundreds of block weights, lose
 /// their brackets.
@@ -231,7 +231,7 @@ pub const MOTION_LAW: f64 = 1e-3;
 pub const MOTION_BREACH: f64 = 1e-2;
 
 /// A block that is left with less than this of its load is at rest where its joints' friction has
-/// settled no better than to a tenth of it ([`UNBALANCE`] where it has). Larger: slow slides at the
+/// settled no better than to a tenth of it ([`EQUILIBRIUM_ERROR`] where it has). Larger: slow slides at the
 /// edge of friction pass for rest. Smaller: the last digits of the friction limits keep scenes of
 /// many blocks undecided.
 pub const AT_REST: f64 = 1e-6;
@@ -266,7 +266,7 @@ pub const ADMISSIBLE: f64 = 1e-7;
 /// taken for evidence that something stands either.
 pub const COARSE_FORCE_CAP: f64 = 1e4;
 
-/// Given forces may leave this much unbalanced on a block, in multiples of its load or of the
+/// Given forces may leave this much out of balance on a block, in multiples of its load or of the
 /// greatest force on it, where others that balance exactly are proved to exist near them. Larger:
 /// forces that were tampered with still lead to a proof (of what is true). Smaller: correct forces
 /// of large walls are not taken for evidence.
@@ -282,7 +282,7 @@ pub const LOAD_FACTOR_BEHIND: f64 = 1e-3;
 /// where the engine's noise rules.
 pub const DRY_LAW: f64 = 1e-4;
 
-/// What forces of a load factor with dry friction leave unbalanced may have this share of the live
+/// What forces of a load factor with dry friction leave out of balance may have this share of the live
 /// load's power on the mechanism. Larger: other values pass with the same evidence. Smaller: the
 /// engine's noise at small δ.
 pub const DRY_WIDTH: f64 = 1e-5;
@@ -348,7 +348,7 @@ pub const REST_TIME: f64 = 3.0;
 pub const CRUSHING: f64 = 1e-7;
 
 /// A critical value is found when it is known to this × its size. Larger: fewer digits than the
-/// least unbalance holds. Smaller: the engine's last digits (1e-11 g) decide.
+/// least equilibrium error holds. Smaller: the engine's last digits (1e-11 g) decide.
 pub const CRITICAL_WIDTH: f64 = 1e-9;
 
 /// A critical value narrowed by its margin or by halving is claimed where the verdicts on both
@@ -433,7 +433,7 @@ pub const SCHEDULING_SHARE: f64 = 0.05;
 /// differ by no more than this × the greater. Larger: a contact that matters is not told. Smaller:
 /// the shift of a contact to the middle of its gap is taken for a difference.
 pub const CLOSED_CONTACTS: f64 = 1e-3;
-/// An undecided scene lies on the line between standing and falling when its least unbalance is
+/// An undecided scene lies on the line between standing and falling when its least equilibrium error is
 /// below this. Larger: solvers that lost their way are excused. Smaller: their last digits hide it.
 pub const ON_THE_LINE: f64 = 1e-6;
 /// Loads or sizes spread by more than this ratio are a cause why nothing came out. Larger: stiff

@@ -157,7 +157,7 @@ pub struct RowAnswer {
     /// The load factor, or the tilt in degrees: with dry friction unless the plan says
     /// `associative`.
     pub value: Option<f64>,
-    /// Lower end of its bracket; of `assess` that of the least unbalance, in multiples of gravity.
+    /// Lower end of its bracket; of `assess` that of the least equilibrium error, in multiples of gravity.
     pub lower: Option<f64>,
     /// Upper end. With dry friction that slides it is the bound by associative sliding.
     pub upper: Option<f64>,
@@ -339,8 +339,8 @@ impl RowAnswer {
             Verdict::Undecided => RowStatus::Undecided,
         };
         Self {
-            lower: finite(a.unbalance.lower),
-            upper: finite(a.unbalance.upper),
+            lower: finite(a.equilibrium_error.lower),
+            upper: finite(a.equilibrium_error.upper),
             ..Self::of(status)
         }
     }

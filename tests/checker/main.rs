@@ -78,7 +78,7 @@ fn forged_results_are_refused() {
             scaled(v, 1.001)
         }),
         edited(STANDS, "/scene/templates/0/arch/thickness", |_| json!(0.1)),
-        edited(COLUMN, "/answer/unbalance/upper", |_| json!(-1.0)),
+        edited(COLUMN, "/answer/equilibrium_error/upper", |_| json!(-1.0)),
         edited(PRESTRESS, "/answer/verdict", |_| json!("stable")),
         edited(LIMIT, "/answer/load_factor/value", |v| scaled(v, 1.001)),
         edited(LIMIT, "/evidence/limit/factor/bound/claim/load_factor/upper", |v| scaled(v, 0.9)),

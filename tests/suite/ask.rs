@@ -227,7 +227,7 @@ pub fn verdict(scene: &Scene, law: Law) -> Verdict {
         Verdict::Undecided,
         "{}: {:?} {steps:?}",
         scene.name,
-        answer.unbalance
+        answer.equilibrium_error
     );
     prove(scene, &packed::assessment(scene, &model, &answer).unwrap());
     answer.verdict

@@ -188,7 +188,7 @@ fn a_mechanism_may_not_close_unloaded_joints() {
             - V::x() * (0.2 * share * m.assembly.weight(1));
     }
     let s = certificate::statics(&m, &forces, 0.2);
-    assert!(s.balanced, "{}", s.unbalance);
+    assert!(s.balanced, "{}", s.equilibrium_error);
     assert!(!proved(
         &m,
         Claim::LoadFactor { value: 0.2, lower: 0.2, upper: 0.2 },
@@ -279,8 +279,8 @@ fn forces_and_rates_forms_of_the_programs_agree() {
             p.objective.iter().zip(&solution.x).map(|(c, x)| c * x).sum::<f64>()
         };
         let [f, r] = [Unknowns::Forces, Unknowns::Rates]
-            .map(|u| value(&program::unbalance(&statics, LiveLoad::Absent, u).0));
-        assert!((f + r).abs() < 1e-9, "{name}: least unbalance {f} and {}", -r);
+            .map(|u| value(&program::equilibrium_error(&statics, LiveLoad::Absent, u).0));
+        assert!((f + r).abs() < 1e-9, "{name}: least equilibrium error {f} and {}", -r);
         if name != "thin arch" {
             let [f, r] = [Unknowns::Forces, Unknowns::Rates]
                 .map(|u| value(&program::load_factor(&statics, 1.0, u).0));
@@ -347,7 +347,7 @@ fn a_load_factor_in_a_wide_bracket_is_not_found() {
 /// Ice on ice, squeezed between two posts, on ground that slopes by 1e-4 along the posts: it
 /// slides, however it is squeezed.
 #[test]
-fn a_huge_squeeze_excuses_no_unbalance() {
+fn a_huge_squeeze_excuses_no_equilibrium_error() {
     let post = |id: &str, x: f64| fixed(cuboid(id, [1.0, 1.0, 1.0], [x, 0.0, 0.0]));
     let mut s = scene(
         0.0,
@@ -362,7 +362,7 @@ fn a_huge_squeeze_excuses_no_unbalance() {
     s.gravity = [0.0, 1e-4, -1.0];
     let m = model(&s);
     let a = assess(&m, &associative());
-    println!("{:?} {:?} threshold {:.1e}", a.verdict, a.unbalance, a.threshold);
+    println!("{:?} {:?} threshold {:.1e}", a.verdict, a.equilibrium_error, a.threshold);
     assert_eq!(a.verdict, Verdict::Unstable);
     let (block, w) = (m.assembly.find("block").unwrap(), m.assembly.weight(1));
     for squeeze in [1e6, 1e9, 1e10, 1e11, 1e12, 1e14] {

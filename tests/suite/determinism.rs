@@ -43,7 +43,7 @@ fn answers_repeat_bit_by_bit_on_every_thread() {
             };
             (
                 a.verdict,
-                a.unbalance.upper.to_bits(),
+                a.equilibrium_error.upper.to_bits(),
                 numbers(&a.forces),
                 l.value.map(f64::to_bits),
                 l.bracket.lower.to_bits(),

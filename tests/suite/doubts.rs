@@ -135,7 +135,8 @@ fn a_state_that_neither_rests_nor_moves_is_named() {
 #[test]
 fn what_lies_on_the_line_says_so() {
     let model = block(1.0);
-    let answer = verdict(&model, |a| (a.unbalance.lower, a.unbalance.upper) = (0.0, 2e-8));
+    let answer =
+        verdict(&model, |a| (a.equilibrium_error.lower, a.equilibrium_error.upper) = (0.0, 2e-8));
     let (cause, evidence, next) = why(&answer, &model);
     assert_eq!(cause, DoubtCause::OnTheLine);
     assert!(evidence.contains("between 0e0 and 2e-8 of the weight"), "{evidence}");

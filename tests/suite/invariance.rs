@@ -296,6 +296,6 @@ proptest! {
         let s = arch(CRITICAL * if stands { 1.0 + 1e-6 } else { 1.0 - 1e-6 }, 0.8);
         let m = prepare(&changed(&s, &c)).unwrap();
         let a = assess(&m, &Control::default());
-        prop_assert_eq!(a.verdict, if stands { Verdict::Stable } else { Verdict::Unstable }, "{:?} {:?}", a.unbalance, a.threshold);
+        prop_assert_eq!(a.verdict, if stands { Verdict::Stable } else { Verdict::Unstable }, "{:?} {:?}", a.equilibrium_error, a.threshold);
     }
 }

@@ -175,7 +175,7 @@ fn a_stranger_at_rest_changes_no_digit_of_a_verdict() {
                     "{k} {s}"
                 );
                 if alone.verdict != Verdict::Stable {
-                    assert_eq!(got.unbalance, alone.unbalance, "{k} {s}");
+                    assert_eq!(got.equilibrium_error, alone.equilibrium_error, "{k} {s}");
                     let name = got.part.clone().unwrap();
                     let own = first + a.assembly.free().next().unwrap();
                     assert_eq!((name.first, name.of_parts), (m.assembly.blocks[own].id.clone(), 2));
@@ -338,7 +338,7 @@ fn a_stranger_changes_no_digit_of_a_load_factor() {
                         &part.take_forces(&got.forces),
                         loads,
                     );
-                    assert!(s.unbalance < 1e-5 && s.cone_excess < 1e-12, "{k} {s:?}");
+                    assert!(s.equilibrium_error < 1e-5 && s.cone_excess < 1e-12, "{k} {s:?}");
                 }
                 let both = coulomb::load_factor(&m, &got, &control());
                 assert_eq!(

@@ -163,10 +163,10 @@ fn verdicts_of_the_part_are_those_of_the_whole() {
         assert!(line.contains(words), "{name}: {line}");
         assert_eq!(part.verdict, whole.verdict, "{name}");
         assert!(
-            (part.unbalance.lower - whole.unbalance.lower).abs() <= 1e-8,
+            (part.equilibrium_error.lower - whole.equilibrium_error.lower).abs() <= 1e-8,
             "{name}: {:?} {:?}",
-            part.unbalance,
-            whole.unbalance
+            part.equilibrium_error,
+            whole.equilibrium_error
         );
         assert!(part.attempts[0].size[0] < whole.attempts[0].size[0], "{name}");
         let acceleration = |a: &voussoir::analysis::Assessment| {

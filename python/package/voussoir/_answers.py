@@ -490,9 +490,9 @@ class Assessment(Answer):
         return Verdict(self._answer["verdict"])
 
     @property
-    def unbalance(self) -> Bracket:
-        """The least unbalance, in multiples of gravity: 0 where admissible forces exist."""
-        return _bracket(self._answer["unbalance"])
+    def equilibrium_error(self) -> Bracket:
+        """The least equilibrium error, in multiples of gravity: 0 where admissible forces exist."""
+        return _bracket(self._answer["equilibrium_error"])
 
     @property
     def law(self) -> str | None:

@@ -31,8 +31,8 @@ class Many:
 
     verdicts: npt.NDArray[np.str_]
     """``stable``, ``conditional``, ``unstable``, ``undecided`` or ``error``; shape (n,)."""
-    unbalance: Array
-    """Bracket of the least unbalance, in multiples of gravity; shape (n, 2)."""
+    equilibrium_error: Array
+    """Bracket of the least equilibrium error, in multiples of gravity; shape (n, 2)."""
     margins: Array
     """The margin that was asked for: how far from falling; NaN where there is none; shape (n,)."""
     brackets: Array
@@ -58,7 +58,7 @@ class Many:
         return pandas.DataFrame(
             {
                 "verdict": self.verdicts,
-                "unbalance": self.unbalance[:, 1],
+                "equilibrium_error": self.equilibrium_error[:, 1],
                 "margin": self.margins,
                 "margin_lower": self.brackets[:, 0],
                 "margin_upper": self.brackets[:, 1],
@@ -75,7 +75,7 @@ def _column(told: Any) -> tuple[npt.NDArray[np.str_], Array, Array, dict[int, st
 def assess_many(
     scenes: Iterable[SceneLike],
     *,
-    margin: Literal["unbalance", "limit", "tilt"] = "unbalance",
+    margin: Literal["equilibrium_error", "limit", "tilt"] = "equilibrium_error",
     toward: Sequence[float] | None = None,
     law: Law = "coulomb",
     keep_all: bool = False,
@@ -87,8 +87,8 @@ def assess_many(
     Parameters
     ----------
     scenes : scenes, paths or mappings
-    margin : "unbalance", "limit" or "tilt"
-        What ``margins`` holds: minus the least unbalance in multiples of gravity (0 where forces
+    margin : "equilibrium_error", "limit" or "tilt"
+        What ``margins`` holds: minus the least equilibrium_error in multiples of gravity (0 where forces
         exist, less where it falls), the load factor on the live load, or the tilt in degrees.
     toward : two or three numbers, optional
         The direction of the tilt; the least of eight where none is given.
@@ -103,18 +103,18 @@ def assess_many(
     elif margin == "tilt":
         directions = {} if toward is None else {"toward": [[*map(float, toward), 0.0][:3]]}
         questions.append({"tilt": {"law": law, **directions}})
-    elif margin != "unbalance":
-        raise ValueError(f"margin is unbalance, limit or tilt, not {margin!r}")
+    elif margin != "equilibrium_error":
+        raise ValueError(f"margin is equilibrium error, limit or tilt, not {margin!r}")
     listed = [core(scene) for scene in scenes]
     with shown(progress) as tell:
         told = _core.ask_many(
             listed, questions, keep_all=keep_all, threads=threads, progress=tell
         )
-    verdicts, _, unbalance, errors = _column(told[0])
-    if margin == "unbalance":
-        return Many(verdicts, unbalance, -unbalance[:, 1], -unbalance[:, ::-1], verdicts, errors)
+    verdicts, _, equilibrium_error, errors = _column(told[0])
+    if margin == "equilibrium_error":
+        return Many(verdicts, equilibrium_error, -equilibrium_error[:, 1], -equilibrium_error[:, ::-1], verdicts, errors)
     status, value, brackets, more = _column(told[1])
-    return Many(verdicts, unbalance, value, brackets, status, {**more, **errors})
+    return Many(verdicts, equilibrium_error, value, brackets, status, {**more, **errors})
 
 
 # ---------------------------------------------------------------------- sweeps

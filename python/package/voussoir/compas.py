@@ -186,13 +186,13 @@ def solve(assembly: Any, *, law: Law = "coulomb", **options: Any) -> Any:
     nothing but COMPAS data in and out (``compas.rpc.Proxy("voussoir.compas").solve(assembly)``).
 
     ``options`` are those of :func:`from_assembly`. ``assembly.attributes`` gets ``voussoir``:
-    ``verdict``, ``unbalance`` and the first line of the answer.
+    ``verdict``, ``equilibrium_error`` and the first line of the answer.
     """
     answer: Assessment = assess(from_assembly(assembly, **options), law=law)
     to_assembly(answer, assembly)
     assembly.attributes["voussoir"] = {
         "verdict": answer.verdict.value,
-        "unbalance": [answer.unbalance.lower, answer.unbalance.upper],
+        "equilibrium_error": [answer.equilibrium_error.lower, answer.equilibrium_error.upper],
         "title": answer.title,
     }
     return assembly

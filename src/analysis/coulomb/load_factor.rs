@@ -238,7 +238,7 @@ fn accept(
     let s = certificate::statics(model, &forces, lambda);
     let found = distance.is_obeyed()
         && s.is_within_strength()
-        && s.unbalance <= tolerance::DRY_BALANCE
+        && s.equilibrium_error <= tolerance::DRY_BALANCE
         && hidden(model, &s.residuals, &rates) <= claim::dry_width(&model.assembly, lambda);
     if found {
         (answer.found, answer.value) = (Found::FixedPoint, Some(lambda));

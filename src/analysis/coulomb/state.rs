@@ -452,7 +452,7 @@ fn decide(
     // for the next one.
     let grew = |i: usize| matches!(history, [.., earlier, _] if before.accelerations[i] > 2.0 * earlier.accelerations[i]);
     let is_measure = |i: usize| before.accelerations[i] > NOISE * before.noise && !grew(i);
-    let rest = (NOISE * point.noise).clamp(tolerance::UNBALANCE, tolerance::AT_REST);
+    let rest = (NOISE * point.noise).clamp(tolerance::EQUILIBRIUM_ERROR, tolerance::AT_REST);
     // What fell twice in a row is no chance of unsettled friction.
     let fell = |i: usize| {
         matches!(history, [.., earlier, _]

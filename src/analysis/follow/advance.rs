@@ -529,12 +529,12 @@ impl Tracker<'_> {
     /// These forces, balanced to what counts as balance; others that are, where that is no small
     /// change; nothing where there are none, for then it does not stand.
     fn balanced(&self, model: &Model, forces: &Forces, lambda: f64) -> Option<Forces> {
-        let left = certificate::statics(model, forces, lambda).unbalance;
+        let left = certificate::statics(model, forces, lambda).equilibrium_error;
         if self.drive.is_push() {
             // Its proof is that of its load factor, which finds its own forces.
             return (left <= tolerance::DRY_BALANCE).then(|| forces.clone());
         }
-        if left <= tolerance::UNBALANCE {
+        if left <= tolerance::EQUILIBRIUM_ERROR {
             return Some(forces.clone());
         }
         if let Some(better) = existence::improved(model, forces, 0.0) {

@@ -444,7 +444,7 @@ fn linkage_proof(
 
 /// Forces of a motion, where they are ones: without members, and balanced as dry friction leaves it.
 fn balanced(model: &Model, forces: Forces, load_factor: f64) -> Option<Forces> {
-    let left = || certificate::statics(model, &forces, load_factor).unbalance;
+    let left = || certificate::statics(model, &forces, load_factor).equilibrium_error;
     let are = model.interfaces.members.is_empty() && left() <= tolerance::DRY_BALANCE;
     are.then_some(forces)
 }

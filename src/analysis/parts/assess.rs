@@ -73,7 +73,7 @@ fn fall_freely(model: &Model, parts: &[Part]) -> Option<Assessment> {
     let floating: Vec<Vec<usize>> = parts.iter().filter(loose).map(|p| p.blocks.clone()).collect();
     let count: usize = floating.iter().map(Vec::len).sum();
     Some(Assessment {
-        unbalance: first.unbalance,
+        equilibrium_error: first.equilibrium_error,
         part: Deciding::new(parts, decides),
         forces: scene_forces(interfaces, []),
         mechanism: Some(mechanism::read(model, &rates)),
@@ -96,15 +96,15 @@ fn rank(verdict: Verdict) -> usize {
     }
 }
 
-/// The part that decides: the worst verdict, then the greatest unbalance, then the first.
+/// The part that decides: the worst verdict, then the greatest equilibrium error, then the first.
 fn worst(answers: &[Assessment]) -> usize {
     let measure = |a: &Assessment| match a.verdict {
-        Verdict::Unstable => a.unbalance.lower,
+        Verdict::Unstable => a.equilibrium_error.lower,
         // What dry friction leaves is what tells them apart.
         Verdict::Conditional => {
             a.state.as_ref().and_then(|s| s.steps.last()).map_or(0.0, |s| s.acceleration)
         }
-        Verdict::Stable | Verdict::Undecided => a.unbalance.upper,
+        Verdict::Stable | Verdict::Undecided => a.equilibrium_error.upper,
     };
     let key = |a: &Assessment| (rank(a.verdict), measure(a));
     (1..answers.len())
@@ -158,7 +158,7 @@ fn merged(model: &Model, parts: &[Part], answers: &[Assessment]) -> Assessment {
     };
     Assessment {
         verdict: worst.verdict,
-        unbalance: worst.unbalance,
+        equilibrium_error: worst.equilibrium_error,
         threshold: worst.threshold,
         // Where all stand, none decides.
         part: Deciding::new(parts, decides).filter(|_| worst.verdict != Verdict::Stable),

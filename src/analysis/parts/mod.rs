@@ -4,7 +4,7 @@
 //! A scene of one part goes the same way, so that a part is answered to the last digit alike alone
 //! and among others.
 //!
-//! * *Stands* ([`assess`]): the worst verdict; of several, the greatest unbalance. The forces are
+//! * *Stands* ([`assess`]): the worst verdict; of several, the greatest equilibrium error. The forces are
 //!   those of all parts, a motion is that of the part that decides, and the others rest.
 //! * *Load factor* ([`limit`]): the least. The forces of the other parts are asked for at that load
 //!   factor, for one number multiplies the live load of all. Where a part needs more live load than

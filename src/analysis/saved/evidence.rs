@@ -160,7 +160,11 @@ pub fn flip(f: &Change) -> FlipEvidence {
 fn critical(c: &Critical) -> CriticalEvidence {
     let scan = c.scan.iter().map(|s| {
         let known = s.outcome.as_ref().ok();
-        ScanPoint { value: s.value, verdict: known.map(|k| k.0), unbalance: known.map(|k| k.1) }
+        ScanPoint {
+            value: s.value,
+            verdict: known.map(|k| k.0),
+            equilibrium_error: known.map(|k| k.1),
+        }
     });
     CriticalEvidence {
         scan: scan.collect(),

@@ -2,7 +2,7 @@
 //! where less is left but nothing balances.
 //!
 //! They are relaxed instead, as if in something viscous: a multiple of the diagonal on the tangent is
-//! one over a step in time, and grows shorter as less is left unbalanced (pseudo-transient
+//! one over a step in time, and grows shorter as less is left out of balance (pseudo-transient
 //! continuation, "switched evolution relaxation"; Kelley & Keyes, SIAM J. Numer. Anal. 35, 1998). At the
 //! end it is Newton's method.
 //!

@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Residuals {
-    /// Greatest unbalance of a block, in multiples of its load.
+    /// Greatest equilibrium error of a block, in multiples of its load.
     pub balance: f64,
     /// `ḡ ≥ 0`: the deepest gap below zero beside what the joint itself closes, in multiples of the
     /// greatest closing.
@@ -60,7 +60,7 @@ pub fn residuals(
     let slid_near = greatest(&JointState::slip);
     let share = |value: f64, of: f64| if of > 0.0 { value / of } else { 0.0 };
     let mut all = Residuals {
-        balance: certificate::statics(model, forces, lambda).unbalance,
+        balance: certificate::statics(model, forces, lambda).equilibrium_error,
         gap: 0.0,
         pressure: 0.0,
         complementarity: 0.0,

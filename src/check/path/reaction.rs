@@ -70,7 +70,7 @@ pub fn least(model: &Model, forces: &Forces, rates: &[Rate]) -> Least {
         tolerance::LOAD_FACTOR_BEHIND * value.abs() + tolerance::LOAD_FACTOR_WIDTH * total * speed;
     let (lower, upper) = (k.gain() - k.slack, value + hidden);
     let width = tolerance::THRUST_WIDTH * value.abs() + tolerance::THRUST_FLOOR * total * speed;
-    let holds = s.unbalance <= tolerance::LOOSE_BALANCE
+    let holds = s.equilibrium_error <= tolerance::LOOSE_BALANCE
         && s.cone_excess <= tolerance::CONE
         && behind <= allowed
         && upper - lower <= 2.0 * width;

@@ -73,8 +73,8 @@ pub struct VerdictAnswer {
     /// It stands: for which law of sliding. With `associative` forces exist, and whether the loads
     /// produce them was not asked.
     pub law: Option<Law>,
-    /// Bracket of the least unbalance, in multiples of gravity.
-    pub unbalance: Bracket,
+    /// Bracket of the least equilibrium error, in multiples of gravity.
+    pub equilibrium_error: Bracket,
     /// The part of the scene that decides, where it has several.
     pub part: Option<Deciding>,
     /// How exactly it is proved; nothing where it is undecided.

@@ -12,8 +12,8 @@ const SAME: f64 = 1e-9;
 /// numbers can be changed. Smaller: forces that cancel differ from machine to machine.
 const ROUNDING: f64 = 1e-12;
 /// Numbers that are themselves what is left of cancelling ones, with the size below which they are
-/// rounding: of `unbalance` in multiples of gravity, of residuals in shares of what they are left of.
-const LEFT: [(&str, f64); 2] = [("unbalance", 1e-9), ("residuals", 1e-9)];
+/// rounding: of `equilibrium_error` in multiples of gravity, of residuals in shares of what they are left of.
+const LEFT: [(&str, f64); 2] = [("equilibrium_error", 1e-9), ("residuals", 1e-9)];
 /// Grades, which are sizes of rounding errors.
 const GRADES: [&str; 2] = ["to_rounding", "natural_map"];
 /// A grade is another one on another machine: as good within this factor. Larger: a worse proof is
@@ -115,7 +115,7 @@ mod tests {
     fn rounding_is_no_difference_and_all_else_is_one() {
         let here = json!({
             "a": 1.0, "force": [1e6, 1e-4, 0.0], "word": "stable", "proof": { "to_rounding": 1e-12 },
-            "unbalance": { "upper": 1e-15 }, "list": [{ "f": 1e9 }, { "f": 1e-6 }],
+            "equilibrium_error": { "upper": 1e-15 }, "list": [{ "f": 1e9 }, { "f": 1e-6 }],
             "natural_map": 1e-7,
         });
         let at = |pointer: &str, value: serde_json::Value| {
@@ -126,7 +126,7 @@ mod tests {
         for (pointer, value) in [
             ("/a", json!(1.0 + 1e-10)),
             ("/force/1", json!(2e-4)),
-            ("/unbalance/upper", json!(9e-15)),
+            ("/equilibrium_error/upper", json!(9e-15)),
             ("/list/1/f", json!(1e-4)),
             ("/proof/to_rounding", json!(2e-12)),
         ] {
@@ -137,7 +137,7 @@ mod tests {
             ("/a", json!("1.0")),
             ("/force/1", json!(1.0)),
             ("/word", json!("unstable")),
-            ("/unbalance/upper", json!(1e-8)),
+            ("/equilibrium_error/upper", json!(1e-8)),
             ("/list/0", json!({})),
             ("/list", json!([])),
             ("/proof/to_rounding", json!(1e-13)),

@@ -257,10 +257,11 @@ fn scan_again(d: &mut Derivation, o: &CriticalOptions, c: &CriticalResult) {
 fn is_so(here: &Result<(Verdict, f64), base::error::InputError>, said: &ScanPoint) -> bool {
     match (here, said.verdict) {
         (Err(_), None) | (Ok(_), Some(Verdict::Undecided)) => true,
-        (Ok((verdict, unbalance)), Some(wanted)) => {
-            let said = said.unbalance.unwrap_or(0.0);
+        (Ok((verdict, equilibrium_error)), Some(wanted)) => {
+            let said = said.equilibrium_error.unwrap_or(0.0);
             *verdict == wanted
-                && (unbalance - said).abs() <= tolerance::SAVED * said.abs() + tolerance::UNBALANCE
+                && (equilibrium_error - said).abs()
+                    <= tolerance::SAVED * said.abs() + tolerance::EQUILIBRIUM_ERROR
         }
         _ => false,
     }

@@ -198,8 +198,8 @@ pub struct ScanPoint {
     pub value: f64,
     /// Its verdict; absent where there is no scene with this value.
     pub verdict: Option<Verdict>,
-    /// Its least unbalance, g, as the mechanism bounds it from below.
-    pub unbalance: Option<f64>,
+    /// Its least equilibrium error, g, as the mechanism bounds it from below.
+    pub equilibrium_error: Option<f64>,
 }
 
 /// Of a flip.

@@ -30,7 +30,7 @@ pub trait Recompute {
         None
     }
 
-    /// Verdict and least unbalance (g) of the scene with this value at `pointer`, or that there is
+    /// Verdict and least equilibrium error (g) of the scene with this value at `pointer`, or that there is
     /// no such scene.
     fn with_value(
         &self,

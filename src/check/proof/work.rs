@@ -35,7 +35,10 @@ impl Work {
             file.run.trace.iter().map(|a| a.size).max_by_key(|size| size[0]).unwrap_or_default();
         let ends = file.answer.bound().and_then(|l| Some((l.lower?, l.upper?)));
         let bracket = ends
-            .or(file.answer.as_verdict().map(|a| (a.unbalance.lower, a.unbalance.upper)))
+            .or(file
+                .answer
+                .as_verdict()
+                .map(|a| (a.equilibrium_error.lower, a.equilibrium_error.upper)))
             .map(|(lower, upper)| upper - lower);
         let states = file.run.state_steps.iter().map(|s| s.solves).sum::<usize>();
         let dry = file.run.dry_solves;

@@ -6,7 +6,7 @@
 )]
 #[serde(rename_all = "snake_case")]
 pub enum Method {
-    /// The zero of the least unbalance.
+    /// The zero of the least equilibrium error.
     Margin,
     /// By halving the range.
     Halving,

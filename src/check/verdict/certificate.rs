@@ -75,14 +75,14 @@ pub fn at_unit_speed(assembly: &Assembly, rates: &[Rate]) -> Vec<Rate> {
         .collect()
 }
 
-/// What forces leave unbalanced.
+/// What forces leave out of balance.
 #[derive(Clone, Debug)]
 pub struct Residuals {
     /// Wrench left on each block, N and N·m; zero on supports.
     pub residuals: Vec<Wrench>,
-    /// Largest unbalance over the free blocks, in multiples of the block's load (g).
-    pub unbalance: f64,
-    /// The block of the largest unbalance.
+    /// Largest equilibrium error over the free blocks, in multiples of the block's load (g).
+    pub equilibrium_error: f64,
+    /// The block of the largest equilibrium error.
     pub worst: usize,
     /// Largest distance of a force outside its friction cone, over that very force: a large force
     /// elsewhere makes no room for a small one that pulls.
@@ -92,7 +92,7 @@ pub struct Residuals {
     pub crushing: f64,
     /// The interface of that.
     pub most_pressed: usize,
-    /// Whether every block is balanced up to [`tolerance::UNBALANCE`] of its own load.
+    /// Whether every block is balanced up to [`tolerance::EQUILIBRIUM_ERROR`] of its own load.
     pub balanced: bool,
 }
 
@@ -165,7 +165,7 @@ pub fn statics(model: &Model, forces: &Forces, lambda: f64) -> Residuals {
             }
         }
     }
-    let (mut unbalance, mut worst) = (0.0, 0);
+    let (mut equilibrium_error, mut worst) = (0.0, 0);
     for (i, residual) in residuals.iter_mut().enumerate() {
         if assembly.blocks[i].support {
             *residual = Wrench::zero();
@@ -175,18 +175,18 @@ pub fn statics(model: &Model, forces: &Forces, lambda: f64) -> Residuals {
             load_scale(assembly, i).max(lambda.abs() * size(assembly, i, &assembly.live[i]));
         let u = size(assembly, i, residual) / scale;
         // A NaN is the worst there is, and stays.
-        if (u > unbalance || u.is_nan()) && !f64::is_nan(unbalance) {
-            (unbalance, worst) = (u, i);
+        if (u > equilibrium_error || u.is_nan()) && !f64::is_nan(equilibrium_error) {
+            (equilibrium_error, worst) = (u, i);
         }
     }
     Residuals {
         residuals,
-        unbalance,
+        equilibrium_error,
         worst,
         cone_excess: excess,
         crushing,
         most_pressed,
-        balanced: unbalance <= tolerance::UNBALANCE,
+        balanced: equilibrium_error <= tolerance::EQUILIBRIUM_ERROR,
     }
 }
 
@@ -238,7 +238,7 @@ pub struct Kinematics {
     pub live_power: f64,
     /// What cohesion, tension, crushing and members dissipate.
     pub dissipation: f64,
-    /// `Σ` load scale × [`speed`] over the free blocks: the power that an unbalance of 1 g
+    /// `Σ` load scale × [`speed`] over the free blocks: the power that an equilibrium error of 1 g
     /// everywhere would have.
     pub norm: f64,
     /// `Σ e f_n` with the given forces: the power that the inadmissibility may hide.

@@ -248,7 +248,7 @@ fn onto_cone(
 #[derive(Clone, Debug)]
 pub struct Released {
     /// Largest acceleration, in multiples of gravity
-    /// ([`Residuals::unbalance`](super::certificate::Residuals::unbalance)).
+    /// ([`Residuals::equilibrium_error`](super::certificate::Residuals::equilibrium_error)).
     pub acceleration: f64,
     /// Acceleration of each block, in multiples of gravity; zero for supports.
     pub accelerations: Vec<f64>,
@@ -257,7 +257,7 @@ pub struct Released {
     /// The same with accelerations in multiples of gravity, not brought to the size of the forces:
     /// what breaches of the law could make of the accelerations.
     pub natural_map_in_loads: f64,
-    /// The motion, each block's unbalance over its load scale: accelerations in multiples of
+    /// The motion, each block's equilibrium error over its load scale: accelerations in multiples of
     /// gravity.
     pub rates: Vec<Rate>,
 }
@@ -275,7 +275,7 @@ impl Released {
 /// The motion that starts from rest under contact forces, and how exactly the two obey Coulomb's
 /// law.
 ///
-/// Each block moves by its own unbalance; a block's mass is taken as its load scale, with its own
+/// Each block moves by its own equilibrium error; a block's mass is taken as its load scale, with its own
 /// radii of gyration. The law of contact does not depend on that choice, only the speeds do.
 pub fn motion(model: &Model, forces: &Forces) -> Released {
     let assembly = &model.assembly;
@@ -290,7 +290,13 @@ pub fn motion(model: &Model, forces: &Forces) -> Released {
     }
     let natural_map = natural_map(model, forces, &rates).unwrap_or(f64::INFINITY);
     let natural_map_in_loads = map(model, forces, &rates, 1.0);
-    Released { acceleration: s.unbalance, accelerations, natural_map, natural_map_in_loads, rates }
+    Released {
+        acceleration: s.equilibrium_error,
+        accelerations,
+        natural_map,
+        natural_map_in_loads,
+        rates,
+    }
 }
 
 #[cfg(test)]

@@ -338,10 +338,10 @@ pub(super) fn verify(
     super::claim::cones(f, "", model, s);
     let loose = tolerance::LOOSE_BALANCE;
     f.require(
-        s.unbalance <= loose,
+        s.equilibrium_error <= loose,
         format!(
-            "forces balance every free block: largest unbalance {:.1e} g, on {}, allowed {loose:.1e}",
-            s.unbalance, assembly.blocks[s.worst].id
+            "forces balance every free block: largest equilibrium error {:.1e} g, on {}, allowed {loose:.1e}",
+            s.equilibrium_error, assembly.blocks[s.worst].id
         ),
     );
     let width = width(assembly, p.value);

@@ -113,7 +113,7 @@ pub enum Verb {
     ///
     /// The number is named by its JSON pointer, such as /templates/0/arch/thickness or
     /// /joints/default/friction. The range is scanned first, since there may be several flips; each
-    /// is narrowed to 1e-9 of its value by following the least unbalance to zero, and verdicts with
+    /// is narrowed to 1e-9 of its value by following the least equilibrium error to zero, and verdicts with
     /// proof stand on both sides of it. Exit code 0 if there is a flip, 1 if it stands or falls
     /// throughout, 3 if that stays open.
     Critical(Critical),

@@ -16,7 +16,8 @@ use sweep::study::{ElasticMethod, ElasticPoint};
 /// # Errors
 /// The writer's, which has no reason to fail in memory.
 pub fn elastic_csv(points: &[ElasticPoint]) -> Result<String, csv::Error> {
-    let head = ["case", "method", "unbalance", "value", "exact", "relative_error", "seconds"];
+    let head =
+        ["case", "method", "equilibrium_error", "value", "exact", "relative_error", "seconds"];
     let mut out = Table::with_head(head)?;
     for p in points {
         let knob = (p.knob > 0.0).then_some(p.knob);

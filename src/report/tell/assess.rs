@@ -48,8 +48,9 @@ fn title(file: &ResultFile) -> (String, Role) {
 /// Why it stands or falls.
 pub(super) fn verdict(page: &mut Page, file: &ResultFile) {
     let answer = &file.answer;
-    let (lower, upper) =
-        answer.as_verdict().map_or((0.0, f64::NAN), |a| (a.unbalance.lower, a.unbalance.upper));
+    let (lower, upper) = answer
+        .as_verdict()
+        .map_or((0.0, f64::NAN), |a| (a.equilibrium_error.lower, a.equilibrium_error.upper));
     match answer.verdict() {
         Some(Verdict::Stable) => {
             page.paragraph(&format!(
@@ -69,7 +70,7 @@ pub(super) fn verdict(page: &mut Page, file: &ResultFile) {
         Some(Verdict::Unstable) => page.paragraph(&format!(
             "No contact forces inside the friction cones balance the loads: whatever they are, some block is left with at least {lower:.1e} of its weight. The mechanism below moves by itself, which proves it."
         )),
-        Some(Verdict::Undecided) if file.motion.is_some() && upper <= tolerance::UNBALANCE => page.paragraph(
+        Some(Verdict::Undecided) if file.motion.is_some() && upper <= tolerance::EQUILIBRIUM_ERROR => page.paragraph(
             "Admissible contact forces exist, but whether the loads produce them did not come out: the state under dry friction neither came to rest nor to a motion.",
         ),
         Some(Verdict::Undecided) | None => page.paragraph(&format!(

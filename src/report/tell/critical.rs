@@ -100,9 +100,9 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
     }
     if list.iter().any(|(_, m)| *m == Method::Margin) {
         page.paragraph(&format!(
-            "Each value is where the least unbalance reaches zero, known to {:.0e} of it. On both sides the verdict is proved, as near as it can be told from zero: a verdict needs {:.0e} g.",
+            "Each value is where the least equilibrium error reaches zero, known to {:.0e} of it. On both sides the verdict is proved, as near as it can be told from zero: a verdict needs {:.0e} g.",
             tolerance::CRITICAL_WIDTH,
-            tolerance::UNBALANCE
+            tolerance::EQUILIBRIUM_ERROR
         ));
     }
     match file.critical.as_ref().and_then(CriticalResult::exhausted) {
@@ -174,7 +174,12 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
     page.row("of these", cut(&lines, SHOWN, options));
     if options.verbose {
         let all = c.scan.iter().filter_map(|s| {
-            Some(format!("{}: {}, unbalance {:.3e} g", s.value, verb(s.verdict?), s.unbalance?))
+            Some(format!(
+                "{}: {}, equilibrium error {:.3e} g",
+                s.value,
+                verb(s.verdict?),
+                s.equilibrium_error?
+            ))
         });
         page.row("values", all);
     }

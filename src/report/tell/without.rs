@@ -94,18 +94,24 @@ fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
     page.row("proof", [format!("{proved} of {all} proved, each from its own blocks{grade}")]);
 }
 
-/// The blocks, a row each: the verdict on what is left, its least unbalance (lower and upper end,
+/// The blocks, a row each: the verdict on what is left, its least equilibrium error (lower and upper end,
 /// g), and the blocks that move.
 fn csv(file: &ResultFile) -> Result<String, ReportError> {
     let a = said(file).ok_or_else(|| ReportError::new("this is no result of `without`"))?;
     let mut table = Table::new();
-    table.write_record(["block", "verdict", "unbalance_lower", "unbalance_upper", "moving"])?;
+    table.write_record([
+        "block",
+        "verdict",
+        "equilibrium_error_lower",
+        "equilibrium_error_upper",
+        "moving",
+    ])?;
     for w in &a.each {
         let row: [Cell; 5] = [
             w.block.clone().into(),
             w.left.verdict.word().into(),
-            w.left.unbalance.lower.into(),
-            w.left.unbalance.upper.into(),
+            w.left.equilibrium_error.lower.into(),
+            w.left.equilibrium_error.upper.into(),
             w.moving.join("; ").into(),
         ];
         table.write_record(row)?;

@@ -262,7 +262,7 @@ fn line(model: &Model, resultants: &[Option<Resultant>]) -> Vec<Segment> {
     line
 }
 
-/// Forces that leave something unbalanced.
+/// Forces that leave something out of balance.
 const CLOSEST: &str = "forces that come closest";
 
 /// A system of forces as it was saved.

@@ -1,4 +1,4 @@
-//! The state as it comes about: blocks yield to their unbalance against a drag, from where they touch
+//! The state as it comes about: blocks yield to their equilibrium error against a drag, from where they touch
 //! without any load, and friction holds on wherever they have slid to.
 //!
 //! *Law.* With a drag as each block's mass, `M q̇ = A f + w`; forces press by how far the blocks have
@@ -113,8 +113,8 @@ impl Exact {
             (seen, size)
         };
         let mut q = vec![0.0; at.rates.len()];
-        let (mut seen, unbalance) = look(self, &q);
-        let mut size = unbalance;
+        let (mut seen, equilibrium_error) = look(self, &q);
+        let mut size = equilibrium_error;
         let goes_on: Vec<f64> = at.speeds.iter().map(|v| time * v).collect();
         let (seen_on, size_on) = look(self, &goes_on);
         if size_on <= size {
@@ -130,7 +130,7 @@ impl Exact {
                 return Some((Solved { forces: seen.0, rates: q }, size, corrections));
             }
             let more = if exactly && size <= near { TO_THE_LAST_DIGIT } else { 0 };
-            let leads_away = corrections > CORRECTIONS[1] && size > unbalance;
+            let leads_away = corrections > CORRECTIONS[1] && size > equilibrium_error;
             if !size.is_finite() || leads_away || corrections >= CORRECTIONS[2] + more {
                 break;
             }

@@ -30,7 +30,7 @@ const LATE: f64 = 1e-5;
 /// boundary than what differs between two directions of a tilt, and more steps than without.
 const EARLY: f64 = 1e-2;
 
-/// The gap counts relative to the objective, or to this where that is smaller: an unbalance may be
+/// The gap counts relative to the objective, or to this where that is smaller: an equilibrium error may be
 /// zero. Larger: load factors far below the natural one lose digits. Smaller: iterations at an
 /// objective of zero.
 const LEAST_OBJECTIVE: f64 = 1e-2;

@@ -1,5 +1,5 @@
 //! What makes a program of contacts cheap: cone rows concern one contact point (or one block) at a
-//! time, equality rows one block, and very few variables (the load factor, the least unbalance)
+//! time, equality rows one block, and very few variables (the load factor, the least equilibrium error)
 //! concern all of them.
 
 use super::{

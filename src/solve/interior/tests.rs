@@ -6,7 +6,7 @@ use crate::{
     program::{
         LiveLoad, Statics, StaticsOptions, Unknowns,
         coulomb::{Contacts, HeldQuantity, Objective},
-        load_factor, unbalance,
+        equilibrium_error, load_factor,
     },
     solve,
 };
@@ -67,7 +67,7 @@ fn both_engines_find_the_same_load_factor() {
 }
 
 #[test]
-fn both_engines_find_the_same_least_unbalance() {
+fn both_engines_find_the_same_least_equilibrium_error() {
     // A wall on its side: gravity along its face slides the courses off each other.
     for (down, stands) in [("[0, 0, -9.81]", true), ("[0, -9.0, -4.0]", false)] {
         let text = format!(
@@ -76,7 +76,7 @@ fn both_engines_find_the_same_least_unbalance() {
         );
         let model = prepare(&read_str("wall", text).unwrap().0).unwrap();
         let statics = Statics::new(&model, StaticsOptions::default());
-        let (program, layout) = unbalance(&statics, LiveLoad::Absent, Unknowns::Forces);
+        let (program, layout) = equilibrium_error(&statics, LiveLoad::Absent, Unknowns::Forces);
         let [a, b] = [
             own(&program, &settings(EngineSettings::Interior)),
             solve(&program, &settings(EngineSettings::default())),
@@ -228,7 +228,7 @@ fn of_what_falls_no_more_is_sought_than_that_it_does() {
     let exact = settings(EngineSettings::Interior);
     let (limit, _) = load_factor(&statics, 1.0, Unknowns::Forces);
     assert_eq!(own(&limit, &exact).status, Status::PrimalInfeasible);
-    let (least, _) = unbalance(&statics, LiveLoad::AnyMultiple, Unknowns::Forces);
+    let (least, _) = equilibrium_error(&statics, LiveLoad::AnyMultiple, Unknowns::Forces);
     let [whole, sign] = [0.0, 1e-5]
         .map(|where_positive| own(&least, &Settings { where_positive, tolerance: 1e-11, ..exact }));
     assert_eq!((whole.status, sign.status), (Status::Solved, Status::Solved));

@@ -28,7 +28,7 @@
 
 use super::{
     BearingCone, Cone, ConicProgram, Disc, MemberColumns, MemberSet, Statics, StaticsOptions,
-    unbalance::copy,
+    equilibrium_error::copy,
 };
 use model::interface::Model;
 use scene::Friction;

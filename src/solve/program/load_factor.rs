@@ -6,7 +6,7 @@
 
 use super::{
     Cone, ConicProgram, Positions, Statics, Unknowns,
-    unbalance::{copy, force_cones, rate_cones},
+    equilibrium_error::{copy, force_cones, rate_cones},
 };
 
 /// Builds program L with the live load multiplied by `live_scale`; the optimal value is `−λ /

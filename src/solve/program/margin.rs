@@ -3,7 +3,7 @@
 
 use super::{
     Bearing, BearingCone, Cone, ConicProgram, Positions, Statics, Unknowns,
-    unbalance::{copy, force_cones},
+    equilibrium_error::{copy, force_cones},
 };
 use model::interface::Interfaces;
 

@@ -3,7 +3,7 @@
 //! [`Statics`] is the equilibrium of the free blocks, reduced and scaled: `A x + w + λ ℓ = 0` with
 //! `x` in a product of standard cones. Rows are divided by each block's own load (moments also by
 //! its size), columns by one force unit; with raw newtons an interior-point solver reports success
-//! on wrong answers. From it come program **V**, the least unbalance ([`unbalance`]), and program
+//! on wrong answers. From it come program **V**, the least equilibrium error ([`equilibrium_error`]), and program
 //! **L**, the load factor ([`load_factor`]), each in the forces or, dually, in the rates of the
 //! blocks; and program **T**, the thrust on a support ([`thrust()`]), in the forces.
 //!
@@ -17,6 +17,7 @@ mod carried;
 mod conic;
 pub mod coulomb;
 mod crushing;
+mod equilibrium_error;
 mod load_factor;
 mod margin;
 mod member;
@@ -28,12 +29,12 @@ mod section;
 mod statics;
 mod symmetry;
 mod thrust;
-mod unbalance;
 mod unfold;
 
 pub use bearing::{Bearing, BearingCone, Disc, Limits};
 pub use conic::{Cone, ConicProgram, Sparse};
 pub use crushing::CrushingJoint;
+pub use equilibrium_error::{LiveLoad, equilibrium_error};
 pub use load_factor::load_factor;
 pub use margin::{margin, pressed};
 pub use member::{MemberColumns, MemberSet};
@@ -45,7 +46,6 @@ pub use symmetry::{Isometries, Isometry};
 pub use thrust::{
     closing, endless_thrust, member_columns, pushed, reaction_columns, thrust, thrust_columns,
 };
-pub use unbalance::{LiveLoad, unbalance};
 
 /// Which unknowns a program is written in; the others come out as multipliers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -6,7 +6,7 @@
 
 use super::{
     BearingCone, Cone, ConicProgram, Statics, Unknowns,
-    unbalance::{copy, force_cones, rate_cones},
+    equilibrium_error::{copy, force_cones, rate_cones},
 };
 
 /// Builds the program, and tells where its motion begins; `None` where joints have strengths or exclude

@@ -7,7 +7,7 @@
 
 use super::{
     BearingCone, Cone, ConicProgram, Positions, Statics, Unknowns,
-    unbalance::{copy, force_cones, left_at_most},
+    equilibrium_error::{copy, force_cones, left_at_most},
 };
 use check::verdict::{Rate, member};
 use model::interface::{Interfaces, Model};

@@ -82,8 +82,8 @@ pub enum CellGrade {
 const ROUNDING: f64 = 1e-9;
 
 /// A verdict is asked only where the scene is out of balance by more than this, in multiples of
-/// gravity: below, [`tolerance::UNBALANCE`] makes no difference between standing and falling.
-const TELLING: f64 = 100.0 * tolerance::UNBALANCE;
+/// gravity: below, [`tolerance::EQUILIBRIUM_ERROR`] makes no difference between standing and falling.
+const TELLING: f64 = 100.0 * tolerance::EQUILIBRIUM_ERROR;
 
 /// The grid: some thousand cells.
 pub fn grid() -> Vec<Cell> {

@@ -30,7 +30,7 @@ pub enum StudyMethod {
     PyramidInside,
     /// Friction pyramids around the cones; knob: the number of facets.
     PyramidAround,
-    /// Bisection by verdicts of the least unbalance; knob: the number of verdicts.
+    /// Bisection by verdicts of the least equilibrium error; knob: the number of verdicts.
     Bisection,
     /// The load factor with dry friction. No knob.
     DryFriction,

@@ -117,7 +117,10 @@ fn a_stable_result_is_refused_after_any_change() {
                 )
             }),
         ),
-        ("the unbalance", Box::new(|r| r["answer"]["unbalance"]["upper"] = json!(1e-3))),
+        (
+            "the equilibrium error",
+            Box::new(|r| r["answer"]["equilibrium_error"]["upper"] = json!(1e-3)),
+        ),
         ("a count", Box::new(|r| r["answer"]["counts"]["contact_points"] = json!(1))),
         ("another question", Box::new(|r| r["question"] = json!({ "limit": {} }))),
         ("a density", Box::new(|r| r["scene"]["blocks"][5]["density"] = json!(2400.01))),
@@ -137,7 +140,7 @@ fn a_stable_result_is_refused_after_any_change() {
         assert!(text.starts_with("Arch: refuted\n") && text.contains("fails"), "{what}: {text}");
     }
     // So is an answer with half of its keys.
-    for key in ["verdict", "unbalance"] {
+    for key in ["verdict", "equilibrium_error"] {
         let mut bad = good.clone();
         drop(bad["answer"].as_object_mut().unwrap().remove(key));
         desk.checked(NO, &bad);
@@ -181,7 +184,7 @@ fn an_unstable_result_is_refused_after_any_change() {
         (r["answer"]["verdict"], r["evidence"]["assess"]["standing"]["certificate"]["claim"]) =
             (json!("stable"), json!("stable"))
     });
-    changed(&|r| r["answer"]["unbalance"]["lower"] = json!(1.0));
+    changed(&|r| r["answer"]["equilibrium_error"]["lower"] = json!(1.0));
     changed(&|r| drop(r["answer"]["mechanism"]["moving"].as_array_mut().unwrap().remove(0)));
     changed(&|r| r["answer"]["mechanism"]["joints"][0]["motion"] = json!("slide"));
     changed(&|r| r["scene"]["templates"][0]["arch"]["thickness"] = json!(0.8));

@@ -47,9 +47,11 @@ impl Derivation<'_> {
         let answer = VerdictAnswer {
             verdict,
             law,
-            unbalance: proven.as_ref().map_or(Bracket { lower: 0.0, upper: f64::INFINITY }, |p| {
-                unbalance(model, p, verdict)
-            }),
+            equilibrium_error: proven
+                .as_ref()
+                .map_or(Bracket { lower: 0.0, upper: f64::INFINITY }, |p| {
+                    equilibrium_error(model, p, verdict)
+                }),
             part: part.and_then(|p| deciding(model, &p.rates)),
             proof: proven.as_ref().and_then(|p| p.grade),
         };
@@ -91,16 +93,16 @@ impl Derivation<'_> {
     }
 }
 
-/// The bracket of the least unbalance that forces and rates give, g: part by part, in units in which
+/// The bracket of the least equilibrium error that forces and rates give, g: part by part, in units in which
 /// nothing over- or underflows.
-fn unbalance(model: &Model, proven: &Proven, verdict: Verdict) -> Bracket {
+fn equilibrium_error(model: &Model, proven: &Proven, verdict: Verdict) -> Bracket {
     let Proven { claim, forces, rates, .. } = proven;
     let parts = interface::parts(model);
     // Forces outside their cones bound nothing.
     let left = |part: &Part| {
         let left = certificate::statics(&part.model, &part.take_forces(forces), 0.0);
         let admissible = claim.is_some() || left.cone_excess <= tolerance::CONE;
-        if admissible { left.unbalance } else { f64::INFINITY }
+        if admissible { left.equilibrium_error } else { f64::INFINITY }
     };
     let upper = parts.iter().map(left).fold(0.0, f64::max);
     // Rates bound nothing from below unless they are a mechanism.

@@ -325,8 +325,8 @@ fn motion(
     let left = certificate::statics(model, &forces, load_factor);
     require(
         f,
-        left.unbalance <= tolerance::DRY_BALANCE && left.cone_excess <= tolerance::CONE,
-        format!("the forces of the motion balance the loads, to {:.0e}", left.unbalance),
+        left.equilibrium_error <= tolerance::DRY_BALANCE && left.cone_excess <= tolerance::CONE,
+        format!("the forces of the motion balance the loads, to {:.0e}", left.equilibrium_error),
     );
     Ok(Some(forces))
 }

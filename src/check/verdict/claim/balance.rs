@@ -2,7 +2,7 @@
 
 use crate::verdict::{
     Forces, certificate,
-    exact::{Grade, balance::Unbalance, existence},
+    exact::{Grade, balance::EquilibriumError, existence},
     findings::Findings,
 };
 use base::tolerance;
@@ -103,7 +103,7 @@ pub(super) fn balanced_against(
 pub(super) struct Left {
     /// Where no forces that balance exactly are [covered](existence::covered) nearby; on any block
     /// where there are everywhere.
-    pub(super) greatest: Unbalance,
+    pub(super) greatest: EquilibriumError,
     /// Whether there are everywhere.
     exists: bool,
 }
@@ -118,12 +118,12 @@ impl Left {
         let covered = existence::covered(model, forces, lambda);
         let exists = covered.iter().all(|held| *held);
         let counted = |i: usize| if covered[i] && !exists { f64::INFINITY } else { scale(i) };
-        Self { greatest: Unbalance::of(model, forces, lambda, &counted), exists }
+        Self { greatest: EquilibriumError::of(model, forces, lambda, &counted), exists }
     }
 
     /// Whether that proves that the blocks are held.
     pub(super) fn is_balanced(&self) -> bool {
-        self.exists || self.greatest.greatest <= tolerance::UNBALANCE
+        self.exists || self.greatest.greatest <= tolerance::EQUILIBRIUM_ERROR
     }
 }
 
@@ -135,9 +135,9 @@ pub(super) fn held(f: &mut Findings, when: &str, assembly: &Assembly, left: &Lef
         );
         f.require_graded(true, Grade::Exact, text);
     } else {
-        let allowed = tolerance::UNBALANCE;
+        let allowed = tolerance::EQUILIBRIUM_ERROR;
         let text = format!(
-            "{when}forces balance every free block: largest unbalance {by:.1e} g, on {id}, allowed {allowed:.1e}"
+            "{when}forces balance every free block: largest equilibrium error {by:.1e} g, on {id}, allowed {allowed:.1e}"
         );
         f.require_graded(left.is_balanced(), Grade::ToRounding(by), text);
     }

@@ -24,8 +24,8 @@ pub(super) fn dry(f: &mut Findings, model: &Model, forces: &Forces, rates: &[Rat
     cones(f, "", model, &s);
     let allowed = tolerance::DRY_BALANCE;
     f.require(
-        s.unbalance <= allowed,
-        format!("forces balance every free block at λ = {value}: largest unbalance {:.1e} g, allowed {allowed:.0e}", s.unbalance),
+        s.equilibrium_error <= allowed,
+        format!("forces balance every free block at λ = {value}: largest equilibrium error {:.1e} g, allowed {allowed:.0e}", s.equilibrium_error),
     );
     let k = certificate::kinematics(model, rates, forces);
     f.require(
@@ -113,7 +113,7 @@ pub(super) fn load_factor(
     f.require(lower <= value && value <= upper, format!("λ = {value:.12} lies in its bracket"));
 }
 
-/// Forces that hold the scene at the lower end of a load factor. What they leave unbalanced counts
+/// Forces that hold the scene at the lower end of a load factor. What they leave out of balance counts
 /// with the power that it has on the mechanism, and may be more than elsewhere where that is next
 /// to nothing.
 pub(super) fn supported(
@@ -142,7 +142,7 @@ pub(super) fn supported(
             / live;
     let (block, allowed) = (&assembly.blocks[s.worst].id, tolerance::LOOSE_BALANCE);
     let text = format!(
-        "{when}forces balance every free block: largest unbalance {left:.1e} g, on {block}, allowed {allowed:.0e}"
+        "{when}forces balance every free block: largest equilibrium error {left:.1e} g, on {block}, allowed {allowed:.0e}"
     );
     f.require_graded(left <= allowed, Grade::ToRounding(left), text);
     f.require(
@@ -212,7 +212,7 @@ pub fn ends(
         let mut f = Findings::default();
         let s = certificate::statics(model, forces, *lower);
         cones(&mut f, "", model, &s);
-        s.unbalance <= tolerance::LOOSE_BALANCE && f.fails.is_empty()
+        s.equilibrium_error <= tolerance::LOOSE_BALANCE && f.fails.is_empty()
     });
     let assembly = &model.assembly;
     let total: f64 = assembly.free().map(|i| certificate::load_scale(assembly, i)).sum();

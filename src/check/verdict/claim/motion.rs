@@ -167,7 +167,7 @@ pub(super) fn gains(f: &mut Findings, model: &Model, rates: &[Rate]) {
     let k = certificate::kinematics(model, rates, &none);
     let exact = motion::motion(model, rates);
     let gain = exact.map_or(k.gain(), |m| m.gain().lower);
-    let threshold = tolerance::UNBALANCE;
+    let threshold = tolerance::EQUILIBRIUM_ERROR;
     f.require(
         gain > threshold * k.norm,
         format!(

@@ -134,16 +134,16 @@ impl<'a> Balance<'a> {
     }
 }
 
-/// What forces leave unbalanced, at the most, the distance from their cones included.
+/// What forces leave out of balance, at the most, the distance from their cones included.
 #[derive(Clone, Copy, Debug)]
-pub struct Unbalance {
+pub struct EquilibriumError {
     /// On the block of the greatest, over its scale; infinite where a number is none.
     pub greatest: f64,
     /// That block.
     pub block: usize,
 }
 
-impl Unbalance {
+impl EquilibriumError {
     /// Of forces at load factor `lambda`, each block by its own `scale`, N.
     pub fn of(model: &Model, forces: &Forces, lambda: f64, scale: &dyn Fn(usize) -> f64) -> Self {
         let Model { assembly, interfaces, .. } = model;
@@ -184,10 +184,11 @@ impl Unbalance {
         let mut worst = Self { greatest: 0.0, block: 0 };
         for i in assembly.free() {
             let all = balance.size(i) + outside[i];
-            let unbalance = if all == 0.0 { 0.0 } else { all / scale(i) };
-            let unbalance = if unbalance.is_nan() { f64::INFINITY } else { unbalance };
-            if unbalance > worst.greatest {
-                worst = Self { greatest: unbalance, block: i };
+            let equilibrium_error = if all == 0.0 { 0.0 } else { all / scale(i) };
+            let equilibrium_error =
+                if equilibrium_error.is_nan() { f64::INFINITY } else { equilibrium_error };
+            if equilibrium_error > worst.greatest {
+                worst = Self { greatest: equilibrium_error, block: i };
             }
         }
         worst

@@ -21,7 +21,7 @@ pub enum Grade {
     /// A theorem about the resolved numbers of the scene: no rounding is excused.
     #[default]
     Exact,
-    /// The claim rests on this number, the greater the weaker: of forces, the largest unbalance of
+    /// The claim rests on this number, the greater the weaker: of forces, the largest equilibrium error of
     /// a block in multiples of its load; of a motion, the share that closing joints can take of its
     /// power for a contact force of the size of the whole load; of Coulomb's law, the natural map.
     ToRounding(f64),

@@ -19,7 +19,7 @@ fn said(file: &ResultFile) -> Result<&StagesResult, ReportError> {
     file.stages.as_ref().ok_or_else(|| ReportError::new("this is no result of `stages`"))
 }
 
-/// The stages, a row each: name, verdict, least unbalance (lower and upper end, g), blocks, held
+/// The stages, a row each: name, verdict, least equilibrium error (lower and upper end, g), blocks, held
 /// blocks, load factor and tilt (degrees), each with its ends, and the least force (N) down on all
 /// that is held, one by one.
 ///
@@ -31,8 +31,8 @@ pub fn csv(file: &ResultFile) -> Result<String, ReportError> {
         "stage",
         "name",
         "verdict",
-        "unbalance_lower",
-        "unbalance_upper",
+        "equilibrium_error_lower",
+        "equilibrium_error_upper",
         "blocks",
         "held",
         "load_factor",
@@ -49,10 +49,13 @@ pub fn csv(file: &ResultFile) -> Result<String, ReportError> {
         l.map(Cell::from)
     };
     for (k, s) in said(file)?.list.iter().enumerate() {
-        let unbalance = s.verdict.answer.as_verdict().map(|v| v.unbalance);
+        let equilibrium_error = s.verdict.answer.as_verdict().map(|v| v.equilibrium_error);
         let mut row: Vec<Cell> =
             vec![(k + 1).into(), s.name.clone().into(), s.stands().word().into()];
-        row.extend([unbalance.map(|u| u.lower).into(), unbalance.map(|u| u.upper).into()]);
+        row.extend([
+            equilibrium_error.map(|u| u.lower).into(),
+            equilibrium_error.map(|u| u.upper).into(),
+        ]);
         row.extend([s.blocks.into(), s.held.join("; ").into()]);
         row.extend(ends(s.load_factor()));
         row.extend(ends(s.tilt_deg()));

@@ -26,7 +26,7 @@ pub enum ElasticMethod {
     State,
     /// The same with joints at their corners.
     Corners,
-    /// Springs and dampers at the corners of joints, relaxed to rest; knob: the unbalance that
+    /// Springs and dampers at the corners of joints, relaxed to rest; knob: the equilibrium error that
     /// counts as rest.
     PenaltyCorners,
     /// The same at 384 points of each joint.
@@ -215,7 +215,7 @@ mod tests {
     use super::*;
 
     /// The state has every value; springs and dampers come near where their points allow it, and the
-    /// less is left unbalanced, the nearer.
+    /// less is left out of balance, the nearer.
     #[test]
     fn the_state_has_the_exact_values() {
         for case in elastic_cases().unwrap() {

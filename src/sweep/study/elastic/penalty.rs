@@ -1,5 +1,5 @@
 //! The penalty method: springs at points of the joints, stepped in time with made-up masses and
-//! Cundall's damping until what is left unbalanced is small (Cundall 1987; distinct elements).
+//! Cundall's damping until what is left out of balance is small (Cundall 1987; distinct elements).
 //!
 //! Written as such codes are, apart from the laws of the state with stiffness: joints are springs at
 //! points with a share of the area each; spheres press by Hertz, and along by increments of Mindlin's
@@ -54,7 +54,7 @@ struct Springs {
 
 impl<'a> Penalty<'a> {
     /// At the corners of joints, or at points of their triangles cut in four so many times more; what
-    /// is left unbalanced at rest, in multiples of all that acts.
+    /// is left out of balance at rest, in multiples of all that acts.
     ///
     /// # Errors
     /// Joints without a stiffness.

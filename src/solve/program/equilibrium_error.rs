@@ -1,4 +1,4 @@
-//! Program V: least unbalance.
+//! Program V: least equilibrium error.
 //!
 //! `min t` subject to `‖(A x + w)_i‖ ≤ t` for every free block `i`, `x` in the cones. `t` is the
 //! largest out-of-balance acceleration in multiples of gravity. The program is always feasible and
@@ -20,7 +20,7 @@ pub enum LiveLoad {
 
 /// Builds program V; the optimal value is `t`. With [`LiveLoad::AnyMultiple`] in forces, λ is the
 /// last variable.
-pub fn unbalance(
+pub fn equilibrium_error(
     statics: &Statics,
     live: LiveLoad,
     unknowns: Unknowns,
