@@ -1,7 +1,7 @@
 //! # voussoir
 //!
-//! Tells whether things made of rigid pieces that only touch (arches, walls, vaults, domes, rock
-//! blocks, heaps of grains) stand or fall, and proves it.
+//! Certified stability analysis of masonry and granular assemblies of rigid blocks (arches, walls,
+//! vaults, domes, rock blocks, heaps of grains).
 //!
 //! Each stage is one module and hands the next a plain value; nothing reaches back:
 //!

@@ -340,7 +340,9 @@ impl Answer {
             "blocks" => table::blocks(&kept.view()?).map_err(Trouble::other),
             "members" => table::members(&kept.view()?).map_err(Trouble::other),
             "path" => tell::csv(&kept.file).map_err(Trouble::other),
-            other => Err(Trouble::Other(format!("there is no table {other}"))),
+            other => Err(Trouble::Other(format!(
+                "there is no table {other}; the tables are joints, blocks, members and path"
+            ))),
         })
     }
 

@@ -77,7 +77,7 @@ pub fn ask(
 ) -> PyResult<Answer> {
     let question: Question = self::question(question)?;
     let unknown = |key: &str, word: &str| {
-        let error = InputError::at(JsonPath::root().key(key), format!("unknown word {word:?}"));
+        let error = InputError::at(JsonPath::root().key(key), format!("unknown value {word:?}"));
         Trouble::from(error).raise(py)
     };
     let simulate = match simulate {
@@ -209,7 +209,7 @@ fn answer(
 }
 
 fn none() -> Trouble {
-    Trouble::Other("there is no answer to write down".into())
+    Trouble::Other("there is no answer to save".into())
 }
 
 /// The worst case within ranges in the place of the scene.
@@ -271,7 +271,7 @@ impl Session<'_> {
         let deadline = self.control.deadline;
         let mut each = |p: &Progress| {
             self.watch.tell(p.time, p.horizon, || {
-                format!("moved by {:.2} % of a block's thickness", 100.0 * p.relative)
+                format!("displaced by {:.2} % of a block's thickness", 100.0 * p.relative)
             });
             if let (Some(film), Some(moment)) = (&mut film, p.moment) {
                 film.see(moment);

@@ -45,7 +45,7 @@ pub fn heaps(
     let protocol: Protocol = value(protocol.as_any(), |text| {
         serde_json::from_str(&text).map_err(|e| {
             InputError::at(JsonPath::root().key("protocol"), wrong(&e)).hint(
-                "drain, funnel, cylinder, tilt, drum, hopper or shear, with grain, elongation, corners, grains, diameter, sizes, friction, wall_friction, rolling_arm, restitution, density, size, rate, pressure, drop, floor",
+                "the protocols are drain, funnel, cylinder, tilt, drum, hopper and shear, with the values grain, elongation, corners, grains, diameter, sizes, friction, wall_friction, rolling_arm, restitution, density, size, rate, pressure, drop, floor",
             )
         })
     })?;
@@ -71,7 +71,7 @@ fn made(
     let heap = grown(protocol, seed, &Growing { own: None, statics, threads }, &mut |flow| {
         watch.tell(flow.time, 0.0, || {
             format!(
-                "seed {seed}, stage {}: {:.0} √(d/g), {:.1e} m g d a grain",
+                "seed {seed}, stage {}: {:.0} √(d/g), {:.1e} m g d per grain",
                 flow.stage + 1,
                 flow.time,
                 flow.energy

@@ -70,8 +70,8 @@ fn upwards(word: &str) -> Result<Up, InputError> {
         "-z" => Up::MinusZ,
         _ => {
             let path = JsonPath::root().key("up");
-            let error = InputError::at(path, format!("{word:?} is no axis"));
-            return Err(error.hint("x, y, z, -x, -y or -z"));
+            let error = InputError::at(path, format!("{word:?} is not an axis"));
+            return Err(error.hint("use x, y, z, -x, -y or -z"));
         }
     })
 }

@@ -185,7 +185,7 @@ impl Scene {
             // The library says where it ends to be text.
             Err(e) => {
                 let error = scene::read_bytes(name, e.into_bytes()).err();
-                let error = error.map_or(Trouble::Other("not text".into()), Trouble::from);
+                let error = error.map_or(Trouble::Other("not a text file".into()), Trouble::from);
                 return Err(error.raise(py));
             }
         };

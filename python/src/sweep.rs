@@ -197,7 +197,8 @@ impl Rows {
             Some("heat") => Kind::Heat,
             Some("fragility") => Kind::Fragility,
             Some(other) => {
-                let text = format!("no kind of chart: {other}; there are line, heat, fragility");
+                let text =
+                    format!("unknown chart {other}; the charts are line, heat and fragility");
                 return Err(Trouble::Other(text).raise(py));
             }
         };

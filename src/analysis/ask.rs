@@ -235,9 +235,9 @@ fn limited(
 ) -> Result<Limited, InputError> {
     if model.assembly.live.iter().all(|w| *w == Wrench::zero()) {
         let path = JsonPath::root().key("loads").key("live");
-        let error = InputError::at(path, "there is no live load on a free block to ask about");
+        let error = InputError::at(path, "the scene has no live load on a free block");
         if scene.train.is_some() {
-            return Err(error.hint("ask about the train of the scene: `limit` with --moving"));
+            return Err(error.hint("for the train of the scene use `limit` with --moving"));
         }
         return Err(error
             .hint("add \"loads\": { \"live\": [ { \"weight\": [1, 0, 0] } ] } to the scene, or ask `tilt`"));

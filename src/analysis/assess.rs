@@ -1,5 +1,5 @@
 //! Does it stand under its dead load? Program V, its bracket recomputed from the scene; then, where
-//! admissible forces exist and contacts form closed chains that could hold a pre-stress, the state
+//! admissible forces exist and contacts form closed chains that could hold self-stress, the state
 //! under dry friction (program C).
 
 use super::{
@@ -211,13 +211,13 @@ fn by_statics(model: &Model, law: Law) -> Option<Assessment> {
 
 /// Why a scene without closed chains needs no program.
 const STATICS_ALONE: &str =
-    "contacts form no closed chain, so statics alone fixes what each one carries";
+    "contacts form no closed chain, so statics alone determines the force in each";
 
 /// How the line begins that says that program C was left out.
 pub(super) const NO_STATE_NEEDED: &str = "the state under dry friction";
 
 /// What the state under dry friction does not know about members.
-const MEMBERS_YIELD: &str = "the stiffness of members against that of the joints: in the state under dry friction a member yields like an average joint, among those with a stiffness as they do beside each other";
+const MEMBERS_YIELD: &str = "the stiffness of members relative to the joints: under dry friction a member is as stiff as an average joint, and members with a given stiffness keep their ratios";
 
 /// Admissible forces exist: are they such as the loads produce?
 fn settle(model: &Model, control: &Control, answer: &mut Assessment) {

@@ -69,7 +69,7 @@ pub struct Critical {
     pub scan: Vec<Scanned>,
     /// The changes of verdict, in the order of the scan.
     pub changes: Vec<Change>,
-    /// Ranges in which it stands and needs a pre-stress by turns: undecided.
+    /// Ranges in which it stands and needs self-stress by turns: undecided.
     pub by_turns: Vec<[f64; 2]>,
     /// Without a flip: both ends of the range with their evidence, where there are scenes.
     pub ends: Vec<Probe<Proved<Assessment>>>,
@@ -92,7 +92,7 @@ pub fn critical(scene: &Scene, range: &Range, control: &Control) -> Result<Criti
     let mut probes = 0;
     let mut ask = |value: f64, control: Control| {
         if probes > 0 && control.deadline.is_over() {
-            return Err(InputError::at(JsonPath::root(), "the time is up"));
+            return Err(InputError::at(JsonPath::root(), "time limit reached"));
         }
         probes += 1;
         // The first is asked whatever the time: an answer that says what is open is worth it.
@@ -109,7 +109,7 @@ pub fn critical(scene: &Scene, range: &Range, control: &Control) -> Result<Criti
     let mut notes = Vec::new();
     for (k, value) in values.into_iter().enumerate() {
         if k > 0 && control.deadline.is_over() {
-            notes.push(format!("the time was up after {k} of {count} values of the scan: the rest of the range is not known"));
+            notes.push(format!("time limit reached after {k} of {count} values of the scan: the rest of the range is not known"));
             break;
         }
         let answer = ask(value, *control);
@@ -142,7 +142,7 @@ pub fn critical(scene: &Scene, range: &Range, control: &Control) -> Result<Criti
     if !whole {
         for (at, window) in windows(&found, &mut |v| ask(v, statics)).into_iter().rev() {
             let with_law = ask(window.value, *control).unwrap_or(window);
-            notes.push(format!("a window between neighbours of the scan, found by following the least equilibrium error: {}", with_law.value));
+            notes.push(format!("an interval between two scanned values, found by following the least equilibrium error: {}", with_law.value));
             found.insert(at, with_law);
         }
     }
@@ -163,7 +163,7 @@ pub fn critical(scene: &Scene, range: &Range, control: &Control) -> Result<Criti
     let (changes, by_turns) = steady(narrowing.changes);
     notes.extend(by_turns.iter().map(|[from, to]| {
         format!(
-            "between {from} and {to} it stands and needs a pre-stress by turns: undecided there"
+            "between {from} and {to} it alternately stands and needs a self-stress: undecided there"
         )
     }));
     // Where there are flips, they say it all.
@@ -228,7 +228,7 @@ impl Range {
     }
 }
 
-/// Changes of verdict that are looked for between two neighbours of the scan: falls, pre-stress,
+/// Changes of verdict that are looked for between two neighbours of the scan: falls, self-stress,
 /// stands, and back again. More: time lost where the verdict is noise.
 const NESTED: usize = 3;
 
@@ -277,7 +277,7 @@ impl Narrowing<'_> {
             Ok(Narrowed::Flip(value, method, sides)) => (value, method, sides),
             Ok(Narrowed::Third(_)) => {
                 let (from, to) = (a.value, b.value);
-                self.notes.push(format!("between {from} and {to} the verdict changes by turns"));
+                self.notes.push(format!("between {from} and {to} the verdict alternates"));
                 return;
             }
             Err(e) => {
@@ -297,7 +297,7 @@ impl Narrowing<'_> {
             .find(|p| self.laws[1].law == Law::Coulomb && p.assessment.rests_on_statics())
         {
             self.notes.push(format!(
-                "at {} admissible forces exist; whether the loads produce them with dry friction stayed undecided",
+                "at {} admissible forces exist; whether the loads produce them with dry friction is undecided",
                 side.value
             ));
         }
@@ -356,7 +356,7 @@ fn scanned(a: &Probe, b: &Probe) -> Narrowed {
     Narrowed::Flip(0.5 * (a.value + b.value), Method::Scan, Box::new([a.clone(), b.clone()]))
 }
 
-/// So many flips in a row between standing and standing only with a pre-stress are no flips: what is
+/// So many flips in a row between standing and standing only with self-stress are no flips: what is
 /// wedged is told from what is not by forces that all but suffice, and each value falls to either
 /// side. Fewer: two flips that are ones are taken for noise.
 const BY_TURNS: usize = 3;

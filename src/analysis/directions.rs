@@ -99,7 +99,7 @@ impl<'a> Tilts<'a> {
         let forces = |forces| by.forces(self.model, forces);
         let mut left_out = own.left_out.clone();
         left_out.push(format!(
-            "the programs of this direction: a symmetry of the scene carries the answer towards ({:.4}, {:.4}, {:.4}) here",
+            "the programs of this direction: by symmetry of the scene the answer is that towards ({:.4}, {:.4}, {:.4})",
             from.x, from.y, from.z
         ));
         let answer = LoadFactor {

@@ -10,7 +10,7 @@ use super::{
     critical::Scanned, critical_value::Probe,
 };
 use base::{
-    number::{computed, count, short},
+    number::{count, rounded_down, short},
     tolerance,
 };
 use check::terms::{Fate, Stop};
@@ -33,7 +33,7 @@ pub fn doubt(answer: &Answer, model: &Model, control: &Control) -> Option<Doubt>
                 l.dry.as_ref().and_then(|dry| {
                     about.dry(
                         dry,
-                        "simulate the load that matters: `voussoir simulate` with --load-factor",
+                        "simulate the load in question: `voussoir simulate` with --load-factor",
                     )
                 })
             })
@@ -62,7 +62,7 @@ pub fn doubt(answer: &Answer, model: &Model, control: &Control) -> Option<Doubt>
             .positions
             .iter()
             .find_map(|s| {
-                let dry = |dry| about.dry(dry, "ask with `--law associative` for the bound alone");
+                let dry = |dry| about.dry(dry, "use `--law associative` for the bound alone");
                 about.bound(&s.bound).or_else(|| s.dry.as_ref().and_then(dry))
             })
             .or_else(|| m.dead.as_ref().and_then(|dead| about.verdict(dead))),
@@ -70,7 +70,7 @@ pub fn doubt(answer: &Answer, model: &Model, control: &Control) -> Option<Doubt>
             .directions
             .iter()
             .find_map(|d| {
-                let dry = |dry| about.dry(dry, "ask with `--law associative` for the bound alone");
+                let dry = |dry| about.dry(dry, "use `--law associative` for the bound alone");
                 about.bound(&d.bound).or_else(|| d.dry.as_ref().and_then(dry))
             })
             .or_else(|| k.dead.as_ref().and_then(|dead| about.verdict(dead))),
@@ -108,7 +108,7 @@ impl About<'_> {
         if !self.late
             && a.state.is_none()
             && let Some(edges) =
-                self.edges("with it flattened it falls, with another normal it may stand")
+                self.edges("with a small flat there it falls, with another normal it may stand")
         {
             return Some(edges);
         }
@@ -117,26 +117,26 @@ impl About<'_> {
             (false, Some(state)) if a.findings().fails.is_empty() => {
                 let left = state.steps.last().map_or(String::new(), |s| {
                     format!(
-                        ": {:.1e} g is left at a compliance of {:.0e}",
+                        ": an equilibrium error of {:.1e} g remains at a compliance of {:.0e}",
                         s.acceleration, s.epsilon
                     )
                 });
                 return Doubt::new(
                     DoubtCause::DryFriction,
                     format!(
-                        "forces that balance it exist, but the state under dry friction comes neither to rest nor to a motion{left}"
+                        "balanced forces exist, but with dry friction the blocks neither come to rest nor start a motion{left}"
                     ),
-                    "ask `voussoir simulate`, which lets it move in time",
+                    "run `voussoir simulate`, which follows the blocks in time",
                 );
             }
             (false, None) if b.upper <= tolerance::ON_THE_LINE && a.findings().fails.is_empty() => {
                 return Doubt::new(
                     DoubtCause::OnTheLine,
                     format!(
-                        "the least equilibrium error lies between {:.0e} and {:.0e} of the weight, which may be none",
+                        "the least equilibrium error lies between {:.0e} and {:.0e} of the weight, too close to zero to decide",
                         b.lower, b.upper
                     ),
-                    "change what is uncertain (friction, thickness) by 1 % to either side and ask both",
+                    "change what is uncertain (friction, thickness) by 1 % to either side and compute both",
                 );
             }
             _ => {}
@@ -156,7 +156,7 @@ impl About<'_> {
             let dry = tilt.dry.as_ref()?;
             self.dry(
                 &dry.load_factor,
-                "simulate the scene with gravity turned by the tilt that matters",
+                "simulate the scene with gravity rotated by the tilt in question",
             )
         })
     }
@@ -174,11 +174,12 @@ impl About<'_> {
             return Self::refused(why);
         }
         let rests = dry.rests_at.filter(|&r| r > 0.0);
-        let rests = rests.map(|r| format!("; at rest up to {}", computed(r))).unwrap_or_default();
+        let rests =
+            rests.map(|r| format!("; at rest up to {}", rounded_down(r))).unwrap_or_default();
         let programs = count(dry.solves, "program");
         Doubt::new(
             DoubtCause::DryFriction,
-            format!("the friction limits had not settled after {programs}{rests}"),
+            format!("the friction limits had not converged after {programs}{rests}"),
             next,
         )
     }
@@ -186,16 +187,16 @@ impl About<'_> {
     fn time(attempts: usize) -> Option<Doubt> {
         Doubt::new(
             DoubtCause::TimeLimit,
-            format!("time was over after {}", count(attempts, "attempt")),
-            "give it more with --time-limit",
+            format!("time limit reached after {}", count(attempts, "attempt")),
+            "raise --time-limit",
         )
     }
 
     fn refused(why: &str) -> Option<Doubt> {
         Doubt::new(
             DoubtCause::Refused,
-            format!("what came out was refused by its own check: {why}"),
-            "ask again with --keep-all",
+            format!("the result failed its own check: {why}"),
+            "run again with --keep-all",
         )
     }
 
@@ -212,7 +213,7 @@ impl About<'_> {
         Doubt::new(
             DoubtCause::Edges,
             format!(
-                "an edge or corner of {a} meets one of {b}{more}, and which of several normals acts there decides: {known}"
+                "an edge or corner of {a} meets one of {b}{more}, and the answer depends on which of several normals acts there: {known}"
             ),
             "draw the flat that a real edge has (1 mm), or give the normal: \"interfaces\": [{ \"between\": …, \"normal\": … }]",
         )
@@ -231,7 +232,7 @@ impl About<'_> {
         }
         let ends = || match lower.is_finite() || upper.is_finite() {
             true => format!(
-                "with it flattened λ is {}, with any normal at most {}",
+                "with a small flat there λ is {}, with any normal at most {}",
                 short(lower),
                 short(upper)
             ),
@@ -247,7 +248,7 @@ impl About<'_> {
             return Doubt::new(
                 DoubtCause::WideNumbers,
                 spread,
-                "leave out blocks that are much smaller or lighter than the rest, or give friction that stone has",
+                "leave out blocks that are much smaller or lighter than the rest, or give a realistic friction",
             );
         }
         let tried = count(attempts.len(), "attempt");
@@ -258,16 +259,16 @@ impl About<'_> {
             true => Doubt::new(
                 DoubtCause::OpenBracket,
                 format!(
-                    "after {tried} it is known only to lie between {} and {}{status}",
+                    "after {tried} it is only known to lie between {} and {}{status}",
                     short(lower),
                     short(upper)
                 ),
-                "ask again with --keep-all, and take the end on the safe side until then",
+                "run again with --keep-all; until then use the end on the safe side",
             ),
             false => Doubt::new(
                 DoubtCause::NoAttempt,
                 format!("none of {tried} gave both ends{status}"),
-                "ask again with --keep-all",
+                "run again with --keep-all",
             ),
         }
     }
@@ -297,8 +298,8 @@ impl About<'_> {
             let [from, to] = c.by_turns.first()?;
             return Doubt::new(
                 DoubtCause::Range,
-                format!("between {from} and {to} it stands and needs a pre-stress by turns"),
-                "take it as one that needs a pre-stress there",
+                format!("between {from} and {to} it alternately stands and needs a self-stress"),
+                "treat it as needing a self-stress there",
             );
         }
         if self.late {
@@ -307,10 +308,10 @@ impl About<'_> {
         Doubt::new(
             DoubtCause::Range,
             format!(
-                "of {} {undecided} are undecided and {none} make no scene",
+                "of {} {undecided} are undecided and {none} give no valid scene",
                 count(c.scan.len(), "value")
             ),
-            "narrow --between to values that make scenes",
+            "narrow --between to values that give valid scenes",
         )
     }
 }
@@ -322,7 +323,7 @@ fn spread(model: &Model) -> Option<String> {
             .filter(|v| *v > 0.0)
             .fold((f64::INFINITY, 0.0_f64), |(l, h), v| (l.min(v), h.max(v)));
         (high > tolerance::WIDE_NUMBERS * low)
-            .then(|| format!("{what} run from {} to {}", short(low), short(high)))
+            .then(|| format!("{what} range from {} to {}", short(low), short(high)))
     };
     let assembly = &model.assembly;
     let steepest = model
@@ -361,18 +362,25 @@ fn in_time(outcome: &SimulationOutcome) -> Option<Doubt> {
     match run.stop {
         Stop::Stopped => Doubt::new(
             DoubtCause::TimeLimit,
-            format!("stopped after {} of {} s; {moved}", short(run.time), short(run.horizon)),
-            "give it more with --time-limit",
+            format!(
+                "time limit reached after {} of {} s; {moved}",
+                short(run.time),
+                short(run.horizon)
+            ),
+            "raise --time-limit",
         ),
         Stop::Broken => Doubt::new(
             DoubtCause::BrokeOff,
-            format!("the engine's numbers broke down after {} s", short(run.time)),
-            "ask `voussoir assess`, which needs no steps in time",
+            format!(
+                "the numbers of the simulation were no longer finite after {} s",
+                short(run.time)
+            ),
+            "run `voussoir assess`, which needs no time steps",
         ),
         Stop::Rest => Doubt::new(
             DoubtCause::StillMoving,
             format!("it came to rest, but only after {moved}"),
-            "look at what slipped (--svg), and ask `voussoir assess`",
+            "look at what slipped (--svg), and run `voussoir assess`",
         ),
         Stop::Fallen | Stop::Horizon => Doubt::new(
             DoubtCause::StillMoving,

@@ -52,7 +52,7 @@ pub(super) fn on_scene(scene: &Model, flip: Option<Flip>, control: &Control) -> 
         let least = shrunk(scene, tolerance::LEAST_SHRINK, &control);
         return match least.assessment.verdict {
             Verdict::Stable => Geometric::Beyond(Box::new(least)),
-            _ => Geometric::Open("the verdict on shrunk sections came out undecided".into()),
+            _ => Geometric::Open("the verdict on shrunk sections is undecided".into()),
         };
     };
     let [falls, stands] =
@@ -64,7 +64,8 @@ pub(super) fn on_scene(scene: &Model, flip: Option<Flip>, control: &Control) -> 
 pub(super) fn of_part(model: &Model, control: &Control) -> Geometric {
     if !are_dry(&model.interfaces) {
         return Geometric::Open(
-            "joints have strengths or water, which shrinking sections would change".into(),
+            "joints have strength or pore pressure, which shrinking the sections would change"
+                .into(),
         );
     }
     let ask = |by: f64| shrunk(model, by, &Control { law: Law::Associative, ..*control });
@@ -77,7 +78,7 @@ pub(super) fn of_part(model: &Model, control: &Control) -> Geometric {
                 Err(e) => Geometric::Open(e.to_string()),
             }
         }
-        _ => Geometric::Open("the verdict on shrunk sections came out undecided".into()),
+        _ => Geometric::Open("the verdict on shrunk sections is undecided".into()),
     }
 }
 

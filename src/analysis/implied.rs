@@ -107,7 +107,10 @@ fn standing(model: &Model, forces: Forces) -> Assessment {
     let equilibrium_error = certificate::statics(model, &forces, 0.0).equilibrium_error;
     Assessment {
         verdict: Verdict::Stable,
-        left_out: vec!["the program: forces that held other loads or joints hold these".into()],
+        left_out: vec![
+            "the program: forces found for other loads or joints are admissible here as well"
+                .into(),
+        ],
         ..from_forces(model, forces, [0.0, equilibrium_error])
     }
 }
@@ -123,7 +126,9 @@ fn falling(model: &Model, a: &Assessment) -> Option<Assessment> {
         verdict: Verdict::Unstable,
         mechanism: Some(mechanism::read(model, &a.rates)),
         rates: a.rates.clone(),
-        left_out: vec!["the program: a mechanism of other loads or joints is one of these".into()],
+        left_out: vec![
+            "the program: a mechanism found for other loads or joints applies here as well".into(),
+        ],
         ..from_forces(model, a.forces.clone(), [k.dead_power / k.norm, statics.equilibrium_error])
     })
 }

@@ -171,7 +171,7 @@ pub(super) fn control_of(
     let point = Vector3::from(c.point);
     if (point - blocks[i].centroid).norm() > blocks[i].size {
         let center: [f64; 3] = blocks[i].centroid.into();
-        return Err(error(format!("the control point is no point of {}", c.block))
+        return Err(error(format!("the control point does not lie on {}", c.block))
             .hint(format!("its centre of mass is at {}", base::number::point(center))));
     }
     Ok((i, point))
@@ -191,9 +191,10 @@ fn limit_states(curve: &Followed) -> Vec<f64> {
 fn ways(worst: &Quaked, (block, point): (usize, Vector3<f64>)) -> Result<(), String> {
     let own = way_of(&worst.quake, worst.rates(), block, &point);
     match own.is_none_or(|d| d <= kinematic::STILL) {
-        true => {
-            Err("the control point does not go towards the earthquake in this mechanism".into())
-        }
+        true => Err(
+            "the control point does not move in the direction of the earthquake in this mechanism"
+                .into(),
+        ),
         false => Ok(()),
     }
 }
@@ -229,7 +230,7 @@ fn curve(
     control: &Control,
 ) -> Result<(Followed, Model, bool), String> {
     worst.alpha0().ok_or("α0 was not found")?;
-    let point = point.ok_or("no block that moves goes towards the earthquake")?;
+    let point = point.ok_or("no block moves in the direction of the earthquake")?;
     ways(worst, point)?;
     let model = &worst.quake.model;
     let bare = kinematic::without_members(model);
@@ -270,7 +271,7 @@ fn same_without(worst: &Quaked, bare: &Model, control: &Control) -> Result<(), S
     match (worst.participation(), other) {
         (Some(with), Some(without)) if with.is_same(&without) => Ok(()),
         (_, Some(_)) => {
-            Err("motions are followed without members, and without them another mechanism is worse"
+            Err("motions are followed without members, and without them another mechanism governs"
                 .into())
         }
         (_, None) => {

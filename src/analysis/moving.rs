@@ -83,7 +83,7 @@ pub(super) fn moving(
     control: &Control,
 ) -> Result<Moving, InputError> {
     let (Some(train), Some(way)) = (&scene.train, Way::of(scene, model)) else {
-        return Err(InputError::at(JsonPath::root(), "the scene has no train to drive over it")
+        return Err(InputError::at(JsonPath::root(), "the scene has no train")
             .hint("add \"train\": { \"axles\": [ { \"at\": 0, \"force\": 100000 } ], \"path\": [-3, 3], \"step\": 0.1 } to the scene, or ask `limit` about its live load"));
     };
     let dead = (!options.skip_dead).then(|| assess(model, control));
@@ -107,7 +107,7 @@ pub(super) fn moving(
     put(&mut positions, found);
     if positions.is_empty() {
         let path = JsonPath::root().key("train").key("path");
-        return Err(InputError::at(path, "at no position an axle stands on a span")
+        return Err(InputError::at(path, "no position has an axle on a span")
             .hint("make the steps smaller, or move the path"));
     }
     match (control.law, options.every_value) {

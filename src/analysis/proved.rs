@@ -128,7 +128,7 @@ impl Assessment {
         self.verdict == Verdict::Stable && self.state.is_none() && !forest
     }
 
-    /// Of a conditional verdict: the forces without the pre-stress.
+    /// Of a conditional verdict: the forces without the self-stress.
     fn base(&self) -> Option<&Forces> {
         self.state.as_ref().filter(|_| self.verdict == Verdict::Conditional).map(|s| &s.forces)
     }

@@ -278,14 +278,14 @@ impl Heap {
                 None if protocol.kind == ProtocolKind::Hopper => {
                     let [stayed, gone] = self.grains;
                     vec![format!(
-                        "too little ran out to measure, {gone} of {} grains: the hole is clogged, or small for them",
+                        "too few grains flowed out to measure, {gone} of {}: the orifice is clogged or too small",
                         stayed + gone
                     )]
                 }
-                None => vec!["nothing was measured: it did not come so far".into()],
+                None => vec!["nothing was measured: the run ended before the measurement".into()],
             };
             if !self.rested {
-                reasons.insert(0, "cut off before its end".into());
+                reasons.insert(0, "stopped before its end".into());
             }
             let say = |text: &String| Finding::new(FindingCode::Numerics, text.clone());
             self.findings = reasons.iter().map(say).collect();
@@ -297,8 +297,9 @@ impl Heap {
         let mut reasons = judge::refuse(protocol, &reading, self.grains[1]);
         if !self.rested {
             let (energy, time) = (self.energy, self.time);
-            let moves =
-                format!("the heap still moves: {energy:.1e} m g d a grain after {time:.0} √(d/g)");
+            let moves = format!(
+                "the heap still moves: {energy:.1e} m g d per grain after {time:.0} √(d/g)"
+            );
             reasons.insert(0, moves);
         }
         let fit = reading.mean.as_ref().map(|f| f.slope);

@@ -120,7 +120,7 @@ fn ordered(
 /// As [`stages`].
 pub fn least_held(said: &Order, scene: &Scene, model: &Model) -> Result<usize, InputError> {
     if said.tries > MOST_TRIES {
-        let text = format!("an order is sought with at most {MOST_TRIES} tries");
+        let text = format!("the search for an order is limited to {MOST_TRIES} tries");
         return Err(InputError::at(JsonPath::root(), text));
     }
     let of = |p: &Placed| model.assembly.find(&p.block);

@@ -105,7 +105,7 @@ pub fn place(
         Some(id) => match model.assembly.find(id) {
             Some(index) if blocks[index].support => index,
             Some(_) => {
-                return Err(error(format!("support {id}: this block is free"))
+                return Err(error(format!("support {id}: this block is not a support"))
                     .hint(format!("supports are {}", supports())));
             }
             None => {
@@ -129,8 +129,10 @@ pub fn place(
             })?
         }
         None => outwards(model, support).ok_or_else(|| {
-            error(format!("support {id} lies straight below the blocks: no direction is outwards"))
-                .hint("give a direction, such as 1,0,0")
+            error(format!(
+                "support {id} lies straight below the blocks: it has no outward direction"
+            ))
+            .hint("give a direction, such as 1,0,0")
         })?,
     };
     Ok(ThrustAt { support, direction: direction.into() })
@@ -155,8 +157,8 @@ pub fn member(model: &Model, id: &str, direction: Option<[f64; 3]>) -> Result<So
     };
     let Action::Shear { normal, .. } = &members[index].action else {
         return match direction {
-            Some(_) => Err(error(format!("member {id}: its force has a direction of its own"))
-                .hint("a direction is for thrusts on supports and for dowels")),
+            Some(_) => Err(error(format!("member {id}: its force already has a direction"))
+                .hint("give a direction only for thrusts on supports and for dowels")),
             None => Ok(Sought::Member(MemberAt { member: index, along: None })),
         };
     };
@@ -170,7 +172,7 @@ pub fn member(model: &Model, id: &str, direction: Option<[f64; 3]>) -> Result<So
             let plane = Statics::new(model, StaticsOptions::default()).plane;
             let across = plane.and_then(|p| level(normal, p.axis.cross(normal), 1.0));
             across.ok_or_else(|| {
-                error(format!("member {id}: the force of a dowel has no direction of its own"))
+                error(format!("member {id}: the force of a dowel needs a direction"))
                     .hint("give one in the joint, such as --direction 1,0,0")
             })?
         }

@@ -300,7 +300,7 @@ pub enum SlurmError {
         program: String,
     },
     /// A command failed.
-    #[error("{program} refuses: {said}")]
+    #[error("{program} reports an error: {said}")]
     Refused {
         /// The command.
         program: String,
@@ -323,8 +323,7 @@ pub enum SlurmError {
     },
     /// The nodes do not see the folder.
     #[error(
-        "{folder} lies on a disk of this machine ({kind}, mounted at {at}), which nodes such as {node} do not see; hint: give an --output in a \
-         shared folder, or --shared if the nodes see this one under the same path"
+        "{folder} lies on a disk of this machine ({kind}, mounted at {at}), which nodes such as {node} cannot reach; hint: give an --output in a shared folder, or --shared if the nodes reach this one under the same path"
     )]
     NotShared {
         /// The folder.
@@ -341,6 +340,6 @@ pub enum SlurmError {
 fn no_partition(asked: Option<&str>) -> String {
     match asked {
         Some(name) => format!("there is no partition {name:?}"),
-        None => "no partition takes jobs that name none, give --partition".into(),
+        None => "there is no default partition, give --partition".into(),
     }
 }

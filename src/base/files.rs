@@ -72,7 +72,7 @@ fn regular(there: &Metadata) -> io::Result<()> {
         }
         _ => Err(io::Error::new(
             io::ErrorKind::InvalidInput,
-            "this is no regular file but a pipe, a device or the like; name a file",
+            "this is not a regular file but a pipe, a device or the like; name a file",
         )),
     }
 }
@@ -107,7 +107,7 @@ pub fn open_itself(path: &Path) -> io::Result<File> {
     #[cfg(unix)]
     let opened = opened.map_err(|e| {
         match e.raw_os_error() == Some(rustix::io::Errno::LOOP.raw_os_error()) {
-            true => io::Error::other("it has become a link, which is not followed"),
+            true => io::Error::other("it was replaced by a link, which is not followed"),
             false => e,
         }
     });

@@ -87,7 +87,7 @@ pub fn afford(what: &str, count: u64, each: u64) -> Result<(), InputError> {
             let message =
                 format!("{what} would take about {} of memory; {} {given}", size(bytes), is(most));
             Err(InputError::at(JsonPath::root(), message)
-                .hint("ask for less, or raise --max-memory where the machine has more"))
+                .hint("reduce the problem, or raise --max-memory if the machine has more"))
         }
         _ => Ok(()),
     }

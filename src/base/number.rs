@@ -68,32 +68,33 @@ pub fn roundest(value: f64, within: f64) -> f64 {
     near.into_iter().find(|near: &f64| (near - value).abs() <= within).unwrap_or(value)
 }
 
-/// A load factor up to which rest was computed and not proved, never rounded up: five decimals, of
-/// small ones four digits.
-pub fn computed(value: f64) -> String {
-    safe(value, -1.0)
+/// Digits of an answer that people are shown; files, and `--verbose`, have all that are known.
+const SHOWN: i32 = 4;
+
+/// Four digits of a value that something bears or holds up to, never rounded up.
+pub fn rounded_down(value: f64) -> String {
+    four(value, -1.0)
 }
 
-/// One at which motion was computed, or that something is at most or holds from there on, never rounded
-/// down.
-pub fn moving(value: f64) -> String {
-    safe(value, 1.0)
+/// Four digits of a value that something is at most, or holds from there on, never rounded down.
+pub fn rounded_up(value: f64) -> String {
+    four(value, 1.0)
 }
 
-fn safe(value: f64, way: f64) -> String {
+/// Four digits of a value, rounded one way (1: up, -1: down), without zeros at the end; numbers above
+/// 10,000 keep their whole part.
+fn four(value: f64, way: f64) -> String {
     let size = value.abs();
-    let leading = if size > 0.0 && size < 1e-2 { size.log10().floor().max(-300.0) } else { -2.0 };
-    rounded(value, (3 - leading as i32).unsigned_abs() as usize, way, LAST * size)
-}
-
-/// [`computed`] of a tilt in degrees: four decimals.
-pub fn computed_tilt(degrees: f64) -> String {
-    rounded(degrees, 4, -1.0, LAST * degrees.abs())
-}
-
-/// [`moving`] of a tilt in degrees.
-pub fn moving_tilt(degrees: f64) -> String {
-    rounded(degrees, 4, 1.0, LAST * degrees.abs())
+    if !(size > 0.0 && size.is_finite()) {
+        return fixed(value, 0);
+    }
+    let leading = size.log10().floor().max(-300.0) as i32;
+    let text =
+        rounded(value, (SHOWN - 1 - leading).max(0).unsigned_abs() as usize, way, LAST * size);
+    match text.split_once('e') {
+        None if text.contains('.') => text.trim_end_matches('0').trim_end_matches('.').to_string(),
+        _ => text,
+    }
 }
 
 /// What a computed value may be printed beyond itself, relative. Larger: it is printed where nothing was
@@ -175,26 +176,23 @@ mod tests {
 
     #[test]
     fn small_load_factors_keep_their_digits() {
-        let said = [0.4376801, 0.01748, 1.7e-3, -0.148, 3.2e-9, 0.0, -0.0].map(computed);
-        let wanted =
-            ["0.43768", "0.01748", "0.001700", "-0.14800", "3.200e-9", "0.00000", "0.00000"];
-        assert_eq!(said, wanted);
+        let said = [0.4376801, 0.01748, 1.7e-3, -0.148, 3.2e-9, 41_818.594, 0.0, -0.0];
+        let wanted = ["0.4376", "0.01748", "0.0017", "-0.148", "3.200e-9", "41818", "0", "0"];
+        assert_eq!(said.map(rounded_down), wanted);
     }
 
     #[test]
-    fn what_was_computed_is_printed_on_its_safe_side() {
-        assert_eq!(computed(0.353_578_553_7), "0.35357");
-        assert_eq!(computed(0.499_999_999_9), "0.50000");
-        assert_eq!(computed(-0.148_001), "-0.14801");
-        assert_eq!(computed(0.001_700_96), "0.001700");
-        assert_eq!(computed(3.2009e-9), "3.200e-9");
-        assert_eq!(computed(9.9999e-3), "0.009999");
-        assert_eq!(computed_tilt(0.5f64.atan().to_degrees()), "26.5650");
-        assert_eq!(computed_tilt(44.999_999_99), "45.0000");
-        assert_eq!(moving(0.356_101), "0.35611");
-        assert_eq!(moving(0.356_1), "0.35610");
-        assert_eq!(moving(9.999_99e-3), "0.010000");
-        assert_eq!(moving_tilt(0.5f64.atan().to_degrees()), "26.5651");
+    fn what_is_printed_is_on_its_safe_side() {
+        assert_eq!(rounded_down(0.353_578_553_7), "0.3535");
+        assert_eq!(rounded_down(0.499_999_999_9), "0.5");
+        assert_eq!(rounded_down(-0.148_01), "-0.1481");
+        assert_eq!(rounded_down(9.9999e-3), "0.009999");
+        assert_eq!(rounded_down(0.5f64.atan().to_degrees()), "26.56");
+        assert_eq!(rounded_down(44.999_999_99), "45");
+        assert_eq!(rounded_up(0.356_101), "0.3562");
+        assert_eq!(rounded_up(0.356_1), "0.3561");
+        assert_eq!(rounded_up(9.999_99e-3), "0.01");
+        assert_eq!(rounded_up(0.5f64.atan().to_degrees()), "26.57");
     }
 
     #[test]

@@ -247,7 +247,7 @@ pub const REST_BELOW: f64 = 1e-3;
 /// open is little.
 pub const REST_WITHIN: f64 = 0.1;
 
-/// A state without pre-stress moves when some block is left with at least this much of its load,
+/// A state without self-stress moves when some block is left with at least this much of its load,
 /// and rests only where no more than this is left of its acceleration beside what falls with ε.
 /// Larger: slow slides at the edge of friction are refused (a rock wedge 1e-3 beyond its factor of
 /// safety is left with 5e-4), or pass for rest (a flat arch that moves by 6e-4 sinks ten times as

@@ -48,11 +48,11 @@ fn claim(path: &Path, is_written: bool) -> anyhow::Result<()> {
         };
         match other.is_written && is_written {
             true => bail!(
-                "{}: two outputs would go to this file{also}; give each a file of its own",
+                "{}: two outputs would go to this file{also}; name a different file for each",
                 path.display()
             ),
             false => bail!(
-                "{}: this file is read, and an output would replace it{also}; give the output another name",
+                "{}: an output would overwrite this input{also}; give the output another name",
                 path.display()
             ),
         }

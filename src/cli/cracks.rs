@@ -27,9 +27,9 @@ pub fn run(session: &Session, file: &Path, as_json: bool, quiet: bool) -> anyhow
         terminal::print(&json::pretty(&list)?)?;
     } else {
         let mut lines = vec![match explains {
-            0 => "No movement of one support explains the cracks; the nearest:".to_string(),
-            1 => "One movement of one support explains the cracks:".to_string(),
-            n => format!("{n} movements of one support explain the cracks alike:"),
+            0 => "No movement of a single support explains the cracks; the closest:".to_string(),
+            1 => "One movement of a single support explains the cracks:".to_string(),
+            n => format!("{n} movements of a single support explain the cracks equally well:"),
         }];
         let shown = if quiet { 0 } else { SHOWN.max(explains) };
         lines.extend(list.iter().take(shown).map(|e| line(e, count)));
@@ -45,16 +45,16 @@ fn line(e: &Explanation, count: usize) -> String {
     let words = |v: &[f64; 3]| v.map(short).join(", ");
     let turns = e.way == [0.0; 3];
     let what = if turns {
-        format!("turns about ({})", words(&e.axis))
+        format!("rotates about ({})", words(&e.axis))
     } else {
         format!("moves along ({})", words(&e.way))
     };
     let size = e.size.zip(e.left).map_or(String::new(), |(size, left)| {
         let unit = if turns { "rad" } else { "m" };
-        format!("; by {} {unit}, {:.1} % of the widths left", short(size), 100.0 * left)
+        format!("; by {} {unit}, {:.1} % of the widths unexplained", short(size), 100.0 * left)
     });
     format!(
-        "  {} {what}: {} of {count} cracks, {} joints open that are not seen to{size}",
+        "  {} {what}: {} of {count} cracks explained, {} joints open without a listed crack{size}",
         e.support, e.explained, e.unseen
     )
 }

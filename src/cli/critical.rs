@@ -26,13 +26,13 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
         bail!("--between takes two numbers: --between 0.05 0.2")
     };
     if from == to {
-        bail!("--between {from} {to}: the range is empty");
+        bail!("--between {from} {to}: the range is empty; give two different values");
     }
     let scan = match args.step.map(|step| ((to - from) / step).abs().ceil() + 1.0) {
         None => args.scan.map(|n| n as usize),
         Some(count) if count <= MOST => Some(count as usize),
         Some(count) => bail!(
-            "--step {}: the range would take {count:.0} steps, at most {MOST} are taken",
+            "--step {}: the range has {count:.0} steps, more than the limit of {MOST}; use a larger step",
             args.step.unwrap_or(0.0)
         ),
     };

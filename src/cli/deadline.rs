@@ -32,7 +32,7 @@ fn watch(limit: f64) -> Deadline {
     let _ = std::thread::Builder::new().name("time limit".into()).spawn(move || {
         std::thread::sleep(patience);
         terminal::say(&format!(
-            "error: --time-limit {limit} is past and the scene is still being worked on: there is no answer\nhint: allow more time, or ask about a smaller scene"
+            "error: time limit of {limit} s reached without an answer\nhint: raise --time-limit, or ask about a smaller scene"
         ));
         std::process::exit(Exit::Undecided as i32);
     });

@@ -93,11 +93,9 @@ fn set(value: &mut Value, key: &str, new: Value) -> anyhow::Result<()> {
         }
         if let Value::Array(list) = place {
             let count = list.len();
-            place = step
-                .parse()
-                .ok()
-                .and_then(|i: usize| list.get_mut(i))
-                .with_context(|| format!("{key}: the list has {count} entries"))?;
+            place = step.parse().ok().and_then(|i: usize| list.get_mut(i)).with_context(|| {
+                format!("{key}: no such entry; the list has {count} entries, counted from 0")
+            })?;
         } else {
             if !place.is_object() {
                 *place = Value::Object(Map::new());

@@ -98,7 +98,7 @@ pub fn rock(session: &Session, terminal: &Terminal, ask: Rock) -> anyhow::Result
 /// Runs all blocks of a scene in time.
 pub fn simulate(args: &Simulate, session: &Session, terminal: &Terminal) -> anyhow::Result<Exit> {
     if args.skip_verdict {
-        bail!("--skip-verdict: on ground that moves no verdict is asked for");
+        bail!("--skip-verdict does not apply to moving ground, which has no verdict; omit it");
     }
     let told = Told::open(&args.csv, &args.chart)?;
     let Shaking { given, record, motion } = shaking(&args.ground)?;

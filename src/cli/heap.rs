@@ -60,7 +60,7 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
     let save = args.common.save.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
     if args.csv.is_some() {
         bail!(
-            "--csv writes the contact forces of a packing as it lies: keep the heaps with --heaps, and ask `voussoir repose` about one of them"
+            "--csv cannot be combined with --question repose: it writes the contact forces of a packing as it lies\nhint: write the heaps with --heaps, then ask `voussoir repose` about one of them"
         );
     }
     let format = GrainFormat::of(args.grains.as_deref());
@@ -108,7 +108,7 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
         } else {
             let mut watch = |flow: &Flow| {
                 bar.set_message(format!(
-                    "seed {seed}, stage {}: {:.0} √(d/g), {:.1e} m g d a grain",
+                    "seed {seed}, stage {}: {:.0} √(d/g), {:.1e} m g d per grain",
                     flow.stage + 1,
                     flow.time,
                     flow.energy
@@ -158,7 +158,8 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
         Ok((HeapResult::new(&heap, result), view))
     };
     let outputs: Vec<(usize, Outputs)> = outputs.into_iter().enumerate().collect();
-    let heaps = parallel::try_map(threads, &outputs, one).context("no threads")??;
+    let heaps =
+        parallel::try_map(threads, &outputs, one).context("the threads cannot be started")??;
     bar.finish_and_clear();
     let (heaps, views): (Vec<_>, Vec<_>) = heaps.into_iter().unzip();
     let file = ReposeFile::new(&protocol, heaps);
@@ -196,7 +197,7 @@ fn kept(path: &std::path::Path, made: Value, args: &Repose) -> anyhow::Result<Ke
         .count();
     if count > 0 && !args.common.quiet {
         terminal::say(&format!(
-            "note: {} holds {count} of {} heaps already",
+            "note: {} already holds {count} of {} heaps",
             path.display(),
             args.seeds
         ));
@@ -235,7 +236,7 @@ fn protocol(args: &Repose) -> anyhow::Result<Protocol> {
             // A grading curve from a file, whose median is the unit of length.
             "sizes" if text.parse::<f64>().is_err() && !text.starts_with('[') => {
                 if args.set.iter().any(|(key, _)| key == "diameter") {
-                    bail!("sizes: {text} has diameters in m: leave diameter=… away");
+                    bail!("sizes: {text} gives diameters in m; remove diameter=…");
                 }
                 let path = std::path::Path::new(text);
                 claim::read(path)?;
@@ -249,13 +250,13 @@ fn protocol(args: &Repose) -> anyhow::Result<Protocol> {
         }
         let Some(place) = value.get_mut(key).filter(|_| key != "kind") else {
             bail!(
-                "{key}: no value of a protocol; there are grain, elongation, corners, grains, diameter, sizes, friction, wall_friction, rolling_arm, rolling_friction, restitution, density, size, rate, pressure, drop, floor"
+                "{key}: not a value of a protocol; the values are grain, elongation, corners, grains, diameter, sizes, friction, wall_friction, rolling_arm, rolling_friction, restitution, density, size, rate, pressure, drop, floor"
             );
         };
         *place = serde_json::from_str(text).unwrap_or_else(|_| Value::from(text.as_str()));
     }
     let protocol: Protocol = serde_json::from_value(value).with_context(|| {
-        format!("`{name}` with these values is no protocol: drain, funnel, cylinder, tilt, drum, hopper or shear, with grain=sphere, clump or hull")
+        format!("`{name}` with these values is not a protocol; protocols are drain, funnel, cylinder, tilt, drum, hopper and shear, with grain=sphere, clump or hull")
     })?;
     // What is kept and reported is the box that was used.
     Ok(protocol.sized())
@@ -278,7 +279,7 @@ fn start(path: &std::path::Path) -> anyhow::Result<Vec<BlockSpec>> {
     if !held.is_empty() {
         let name = path.display();
         terminal::say(&format!(
-            "note: left out of {name}: {}; the protocol brings its own",
+            "note: {name}: {} not used; the protocol has its own supports",
             count(held.len(), "support")
         ));
     }

@@ -33,7 +33,7 @@ pub fn run(args: &Import) -> anyhow::Result<Exit> {
     examined.findings.iter().for_each(|f| terminal::say(&format!("warning: {}", f.text)));
     examined.broken.iter().for_each(|text| terminal::say(&format!("warning: {text}")));
     if let Some(why) = &examined.unfinished {
-        terminal::say(&format!("warning: mistakes were not looked for to the end: {why}"));
+        terminal::say(&format!("warning: the search for mistakes did not finish: {why}"));
     }
     imported.unread.iter().for_each(|e| terminal::error(&e.clone().into()));
     sink.write(&json::text(&imported.scene.to_value()?))?;

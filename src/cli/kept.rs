@@ -14,12 +14,12 @@ pub fn ask(session: &Session, question: &Question, file: &Path) -> anyhow::Resul
     let kept = KeptPath::open(file, question, scene, model)?;
     let points = kept.points();
     if points > 0 && session.shows_progress() {
-        terminal::say(&format!("note: {} holds {points} points already", file.display()));
+        terminal::say(&format!("note: {} already holds {points} points", file.display()));
     }
     let asked = kept.ask(question, scene, model, &session.control());
     let (result, failed) = asked.map_err(|e| session.refuse(e))?;
     if let Some(e) = failed {
-        terminal::say(&format!("warning: {e}; the points from there on are not kept"));
+        terminal::say(&format!("warning: {e}; later points are not in the checkpoint"));
     }
     Ok(result)
 }

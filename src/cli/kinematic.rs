@@ -21,7 +21,7 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
         return in_time(args, &session, terminal, told);
     }
     if let Some(option) = args.rocking.idle() {
-        bail!("{option} goes with --ground or --pulse");
+        bail!("{option} requires --ground or --pulse");
     }
     let question = KinematicOptions {
         law: session.law(),
@@ -67,12 +67,10 @@ fn in_time(
         (args.toward.len() > 1, "a second --toward"),
     ];
     if let Some((_, option)) = without.into_iter().find(|w| w.0) {
-        bail!(
-            "{option} says nothing about a mechanism in time: leave it out, or --ground, --pulse and --from"
-        );
+        bail!("{option} cannot be combined with --ground, --pulse or --from");
     }
     if let Some(option) = args.rocking.idle() {
-        bail!("{option} goes with --ground or --pulse");
+        bail!("{option} requires --ground or --pulse");
     }
     let ask = ground::Rock {
         args: &args.rocking,

@@ -15,7 +15,7 @@ pub fn run(args: &Limit, terminal: &Terminal) -> anyhow::Result<Exit> {
         return moving::run(args, terminal);
     }
     if let Some(option) = moving::idle(args) {
-        bail!("{option} goes with --moving");
+        bail!("{option} requires --moving");
     }
     let mut session =
         Session::open(&args.common)?.drawn(&args.pictures, args.tables.csv.as_deref())?;

@@ -13,7 +13,7 @@ use voussoir::{analysis::MovingOptions, report::view::positions};
 pub fn run(args: &Limit, terminal: &Terminal) -> anyhow::Result<Exit> {
     if !args.worst.is_empty() {
         bail!(
-            "--worst and --moving are two searches: sweep over the range with the question moving"
+            "--worst cannot be combined with --moving\nhint: sweep over the range with the question `moving`"
         );
     }
     let told = Told::open(&args.positions, &args.chart)?;

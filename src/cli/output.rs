@@ -44,7 +44,7 @@ impl Sink {
             Ok(m) if !m.is_file() => return Ok(Self::Device(target)),
             Ok(_) => drop(OpenOptions::new().append(true).open(&target).with_context(context)?),
             Err(_) if target.file_name().is_none() => {
-                bail!("{}: cannot be written: it names no file", path.display())
+                bail!("{}: cannot be written: the path names no file", path.display())
             }
             Err(_) if !folder(&target).is_dir() => {
                 bail!("{}: cannot be written: there is no such folder", path.display())
@@ -66,7 +66,7 @@ impl Sink {
     /// Writes what is no text, to anything but standard output.
     pub fn write_bytes(&self, bytes: &[u8]) -> anyhow::Result<()> {
         match self {
-            Self::Stdout => bail!("standard output takes text alone"),
+            Self::Stdout => bail!("only text can go to standard output"),
             Self::File(target) => replace(target, bytes)
                 .with_context(|| format!("{}: cannot be written", target.display())),
             Self::Device(target) => match OpenOptions::new()

@@ -54,7 +54,7 @@ fn begin(session: &Session, curve: &Curve) -> anyhow::Result<Vec<SavedPose>> {
     let verified = proof::verify(&saved, &session.scene)?;
     if let Some((title, findings)) = verified.parts.iter().find(|(_, f)| !f.fails.is_empty()) {
         bail!(
-            "{name} is refuted for this scene: {title}: {}\nhint: ask again with --save, about the scene as it is",
+            "{name} is refuted for this scene: {title}: {}\nhint: solve the current scene again with --save",
             findings.fails.join("; ")
         );
     }
@@ -65,7 +65,7 @@ fn begin(session: &Session, curve: &Curve) -> anyhow::Result<Vec<SavedPose>> {
     });
     let last = last.filter(|p| !p.poses.is_empty());
     last.map(|p| p.poses.clone())
-        .with_context(|| format!("{name} holds no pose of a structure that has moved"))
+        .with_context(|| format!("{name} holds no proved pose of the displaced structure"))
 }
 
 fn run(

@@ -65,7 +65,7 @@ impl Pictures {
                 path.with_extension(ending)
             };
             bail!(
-                "--vtk {}: ParaView goes by the ending, which is .{ending} here: name it {}",
+                "--vtk {}: ParaView needs the ending .{ending} for this file; name it {}",
                 path.display(),
                 named.display()
             );
@@ -79,11 +79,11 @@ impl Pictures {
             .filter(|p| is_dash(p))
             .count();
         if printed > 1 {
-            bail!("standard output takes one of --svg, --vtk, --gltf, --obj and --csv");
+            bail!("only one of --svg, --vtk, --gltf, --obj and --csv can go to standard output");
         }
         let tables = match table {
             Some(path) if is_dash(path) => {
-                bail!("--csv takes a file: the table of the blocks is written beside it")
+                bail!("--csv needs a file: the table of the blocks is written beside it")
             }
             Some(path) => {
                 Some([Sink::open(Some(path))?, Sink::open(Some(&beside(path, "blocks")))?])
@@ -130,9 +130,7 @@ impl Pictures {
     /// Refuses to leave supports out of nothing.
     pub fn hides_something(&self, page: bool) -> anyhow::Result<()> {
         if self.hides && !(page || self.svg.is_some() || self.is_solid()) {
-            bail!(
-                "--hide says what --svg, --gltf, --obj and --report leave out: ask for one of them"
-            );
+            bail!("--hide requires --svg, --gltf, --obj or --report");
         }
         Ok(())
     }

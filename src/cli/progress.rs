@@ -35,7 +35,7 @@ impl Bar {
         self.0.set_position((STEPS as f64 * progress.time / progress.horizon) as u64);
         let moved = 100.0 * progress.relative;
         self.0.set_message(format!(
-            "{:.2} of {:.2} s, moved by {moved:.2} % of a block's thickness",
+            "{:.2} of {:.2} s, displaced by {moved:.2} % of a block's thickness",
             progress.time, progress.horizon
         ));
     }

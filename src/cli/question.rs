@@ -81,14 +81,14 @@ impl<'a> Session<'a> {
         change: impl FnOnce(Scene) -> Scene,
     ) -> anyhow::Result<Self> {
         if common.save.as_ref().is_some_and(|p| p.as_os_str() == "-") {
-            bail!("--save takes a file; --json prints the result");
+            bail!("--save needs a file; use --json to print the result");
         }
         if common.report.as_ref().is_some_and(|p| p.as_os_str() == "-") && common.json {
-            bail!("--report - and --json both print on standard output");
+            bail!("--report - and --json both write to standard output; give --report a file");
         }
         for (option, path) in [("--save", &common.save), ("--report", &common.report)] {
             if let Some(path) = path.as_ref().filter(|path| is_same(path, &common.scene)) {
-                bail!("{option} {} would replace the scene by its result", path.display());
+                bail!("{option} {} would overwrite the scene; name another file", path.display());
             }
         }
         claim::read(&common.scene)?;
@@ -155,13 +155,15 @@ impl<'a> Session<'a> {
         ];
         for (option, path) in given.into_iter().filter_map(|(o, p)| Some((o, p?))) {
             if is_same(path, &self.common.scene) {
-                bail!("{option} {} would replace the scene", path.display());
+                bail!("{option} {} would overwrite the scene; name another file", path.display());
             }
         }
         let pictures = open()?;
         pictures.hides_something(self.report.is_some())?;
         if pictures.printed() && (self.common.json || report::is_printed(&self.common.report)) {
-            bail!("standard output takes one of --svg, --vtk, --gltf, --obj, --report and --json");
+            bail!(
+                "only one of --svg, --vtk, --gltf, --obj, --report and --json can go to standard output"
+            );
         }
         Ok(Self { pictures, ..self })
     }

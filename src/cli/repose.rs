@@ -41,9 +41,7 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
         bail!(
             InputError::at(
                 Default::default(),
-                format!(
-                    "`{word}` is a protocol that makes a heap, and there is no scene of that name"
-                )
+                format!("`{word}` is a protocol that makes heaps; no scene has this name")
             )
             .hint(format!(
                 "ask for the slope of heaps with `voussoir repose {word} --question repose`"
@@ -51,12 +49,10 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
         );
     }
     if let Some((key, _)) = args.set.first() {
-        bail!("{key}=…: only the protocols of --question repose take values");
+        bail!("{key}=… requires --question repose: only protocols take values");
     }
     if args.keep.is_some() || args.heaps.is_some() || args.skip_margin || args.start.is_some() {
-        bail!(
-            "--keep, --heaps, --start and --skip-margin are about heaps in time: they go with --question repose"
-        );
+        bail!("--keep, --heaps, --start and --skip-margin require --question repose");
     }
     let csv = args.csv.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
     let grains = args.grains.as_deref().map(|p| Sink::open(Some(p))).transpose()?;

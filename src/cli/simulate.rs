@@ -40,7 +40,7 @@ pub fn run(args: &Simulate, terminal: &Terminal) -> anyhow::Result<Exit> {
         (args.chart.is_some(), "--chart"),
     ] {
         if given {
-            bail!("{option} goes with --ground or --pulse");
+            bail!("{option} requires --ground or --pulse");
         }
     }
     // Created before the work, and filled as it goes.

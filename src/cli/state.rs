@@ -13,7 +13,7 @@ use voussoir::analysis::{ControlPoint, StateOptions};
 pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
     if args.common.law == Law::Associative {
         bail!(
-            "--law associative: joints that yield slide by Coulomb's law, and the bound stands beside the path; leave it out"
+            "--law associative does not apply: elastic joints slide by Coulomb's law, and the bound is reported beside the path\nhint: omit --law"
         );
     }
     let session = Session::open(&args.common)?.drawn(&args.pictures, None)?;

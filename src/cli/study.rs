@@ -13,7 +13,7 @@ use voussoir::{
         json, page, study as report,
         text::{Layout, Page},
     },
-    study::{self, Known, elastic, extreme, rocking},
+    study::{self, Known, elastic, experiments, extreme, rocking},
 };
 
 pub fn run(args: &Study, terminal: &Terminal) -> anyhow::Result<Exit> {
@@ -21,7 +21,7 @@ pub fn run(args: &Study, terminal: &Terminal) -> anyhow::Result<Exit> {
     let out = Outputs::open(args, terminal)?;
     if args.keep.is_some() && !args.extreme {
         bail!(
-            "--keep goes with --extreme: the other studies compare times, which belong to one run"
+            "--keep requires --extreme: the other studies compare times, which must come from one run"
         );
     }
     match args {
@@ -50,6 +50,7 @@ pub fn run(args: &Study, terminal: &Terminal) -> anyhow::Result<Exit> {
                 || report::elastic_text(&points, out.layout),
             )
         }
+        Study { experiments: Some(corpus), .. } => held_against(&out, corpus),
         Study { omissions: true, .. } => omissions(&out),
         _ => methods(&out),
     }
@@ -69,10 +70,9 @@ impl<'a> Outputs<'a> {
     fn open(args: &'a Study, terminal: &'a Terminal) -> anyhow::Result<Self> {
         let csv = args.csv.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
         let page = args.report.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
-        if let Some(folder) = &args.svg
-            && !folder.is_dir()
-        {
-            bail!("{}: there is no such folder", folder.display());
+        if let Some(folder) = &args.svg {
+            std::fs::create_dir_all(folder)
+                .with_context(|| format!("{}: cannot be written", folder.display()))?;
         }
         let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
         if args.quiet || !std::io::stderr().is_terminal() {
@@ -115,6 +115,18 @@ impl<'a> Outputs<'a> {
         }
         Ok(Exit::Yes)
     }
+}
+
+/// Predictions against tests of laboratories.
+fn held_against(out: &Outputs, corpus: &Path) -> anyhow::Result<Exit> {
+    let groups = experiments::groups(corpus, &out.args.scenes)?;
+    out.bar.set_length(experiments::count(&groups) as u64);
+    let list = experiments::compare(&groups, || out.bar.inc(1))?;
+    let text = |layout| report::experiments_text(&groups, &list, layout);
+    let chart = || report::experiments_chart(&list);
+    out.page(|| page::experiments(&text(pages::layout(out.layout)), chart(), &list))?;
+    let charts = || vec![("experiments".to_string(), chart())];
+    out.tell(&list, || report::experiments_csv(&list), charts, || text(out.layout))
 }
 
 /// The stiff and extreme grid.
@@ -166,7 +178,7 @@ fn methods(out: &Outputs) -> anyhow::Result<Exit> {
 /// Says how much of the work the file of `--keep` holds already.
 fn taken_up(args: &Study, there: usize, count: usize) {
     if let (Some(path), true) = (&args.keep, there > 0 && !args.quiet) {
-        terminal::say(&format!("note: {} holds {there} of {count} scenes already", path.display()));
+        terminal::say(&format!("note: {} already holds {there} of {count} scenes", path.display()));
     }
 }
 
@@ -180,10 +192,9 @@ fn chosen(names: &[String]) -> anyhow::Result<Vec<Known>> {
     names
         .iter()
         .map(|name| {
-            all.iter()
-                .find(|k| k.name == name)
-                .cloned()
-                .with_context(|| format!("there is no scene {name:?} to study; there are {known}"))
+            all.iter().find(|k| k.name == name).cloned().with_context(|| {
+                format!("there is no scene {name:?} to study; the scenes are {known}")
+            })
         })
         .collect()
 }

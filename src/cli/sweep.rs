@@ -64,13 +64,13 @@ pub fn run(args: &Sweep, terminal: &Terminal) -> anyhow::Result<Exit> {
             bar.set_length((rows - there) as u64);
             if mended > 0 {
                 terminal::say(&format!(
-                    "note: the last row was written in part ({mended} bytes): it is computed again"
+                    "note: the last row is incomplete ({mended} bytes) and is computed again"
                 ));
             }
             slurm::say_unchecked(unchecked);
             if there > 0 && !quiet {
                 terminal::say(&format!(
-                    "note: {} holds {there} of {rows} rows already",
+                    "note: {} already holds {there} of {rows} rows",
                     output.display()
                 ));
             }
@@ -109,7 +109,7 @@ fn merged(args: &Merge, terminal: &Terminal) -> anyhow::Result<Exit> {
 fn rows_file(args: &Sweep, plan: &Path) -> anyhow::Result<PathBuf> {
     match (&args.output, plan.file_stem()) {
         (Some(output), _) if output.as_os_str() == "-" => {
-            bail!("--output takes a file, so that a killed run can be continued")
+            bail!("--output needs a file, so that an interrupted run can be resumed")
         }
         (Some(output), _) => Ok(output.clone()),
         (None, Some(stem)) if plan.as_os_str() != "-" => {

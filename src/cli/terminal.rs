@@ -170,7 +170,7 @@ fn within(asked: usize, option: &str) -> usize {
     if most < asked {
         let processors = count(parallel::processors(), "processor");
         say(&format!(
-            "note: {option} {asked}: {most} threads are started, four for each of {processors}"
+            "note: {option} {asked}: limited to {most} threads, four for each of {processors}"
         ));
     }
     most

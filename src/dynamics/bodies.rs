@@ -188,7 +188,7 @@ fn body(block: &Block, units: &Units, skin: f64) -> Result<Body, InputError> {
     };
     let Some(cells) = pieces::pieces(polyhedron, block.centroid, units.length) else {
         let text = format!(
-            "{:?} falls into more than {MOST} convex pieces, too many to simulate",
+            "{:?} splits into more than {MOST} convex pieces, too many to simulate",
             block.id
         );
         return Err(InputError::at(block.path.clone(), text).hint("give the block a simpler shape"));

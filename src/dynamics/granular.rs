@@ -205,7 +205,7 @@ pub fn flow(
             .hint("give at least one grain, and gravity")
     };
     let units = Units::of(assembly, &assembly.dead)
-        .ok_or_else(|| refuse("there is nothing that could flow"))?;
+        .ok_or_else(|| refuse("there are no grains that could flow"))?;
     let g = assembly.gravity.norm();
     if g == 0.0 {
         return Err(refuse("without gravity nothing flows"));

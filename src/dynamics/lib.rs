@@ -3,7 +3,7 @@
 //!
 //! The engine (rapier) integrates Newton's law with Coulomb friction at contacts that are very
 //! slightly soft. It proves nothing: near a critical parameter it may err (see [`Fidelity`]), and
-//! it shows one history, that of loads which act from one moment on without any pre-stress. *Its
+//! it shows one history, that of loads which act from one moment on without any self-stress. *Its
 //! error grows with the number of blocks in a row*, because its contact forces come out of a fixed
 //! number of iterations.
 //!

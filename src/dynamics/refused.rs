@@ -16,15 +16,16 @@ impl Refused {
     /// This as an error about the block, by its name.
     pub fn told(self, blocks: &[Block]) -> InputError {
         match self {
-            Self::Threads(why) => {
-                InputError::at(JsonPath::root(), format!("the engine got no threads: {why}"))
-                    .hint("give --threads 1")
-            }
+            Self::Threads(why) => InputError::at(
+                JsonPath::root(),
+                format!("the simulation could not start its threads: {why}"),
+            )
+            .hint("give --threads 1"),
             Self::Piece(body) => {
                 let Block { id, path, .. } = &blocks[body];
-                let text = format!("the engine does not take a piece of block {id:?}");
+                let text = format!("the simulation rejects a piece of block {id:?}");
                 InputError::at(path.clone(), text)
-                    .hint("give it a simpler shape, or ask `voussoir assess`")
+                    .hint("give it a simpler shape, or run `voussoir assess`")
             }
         }
     }

@@ -128,7 +128,7 @@ fn broken(runs: &[Run]) -> Option<Finding> {
     let run = runs.iter().find(|r| r.stop == Stop::Broken)?;
     Some(Finding::new(
         FindingCode::Numerics,
-        format!("the engine's numbers were no longer finite after {:.3e} s", run.time),
+        format!("the numbers of the simulation were no longer finite after {:.3e} s", run.time),
     ))
 }
 
@@ -136,7 +136,7 @@ fn broken(runs: &[Run]) -> Option<Finding> {
 fn unknown_members(interfaces: &Interfaces) -> Option<Finding> {
     let first = members::left_out(interfaces).next()?;
     let text = format!(
-        "the simulation has no dowels and no grips, and the scene has {}, such as {} {:?}: it was not run, for without them it is another scene",
+        "the simulation cannot model dowels and grips, and the scene has {}, such as {} {:?}: it was not run",
         members::left_out(interfaces).count(),
         first.kind.word(),
         first.id
@@ -164,7 +164,7 @@ pub fn beyond(model: &Model) -> Option<Finding> {
         .filter(|w| w.0 >= MOST_UNEQUAL)?;
     let [a, b] = [worst.a, worst.b].map(|i| &blocks[i].id);
     let text = format!(
-        "{a} and {b} touch, and their masses are as 1 to {ratio:.0e}: the engine is sure only below {MOST_UNEQUAL:.0e}, and beyond may let fall what stands; the verdict (`voussoir assess`) holds at any ratio"
+        "{a} and {b} touch, with a mass ratio of 1 to {ratio:.0e}: the simulation is reliable only below {MOST_UNEQUAL:.0e}, and beyond it stable blocks may fall; the verdict (`voussoir assess`) holds at any ratio"
     );
     Some(Finding::new(FindingCode::Numerics, text))
 }
@@ -173,7 +173,7 @@ fn strengths(interfaces: &Interfaces) -> Option<Finding> {
     let strong = |f: &&Interface| f.law.cohesion > 0.0 || f.law.tension > 0.0 || crushes(f);
     let count = interfaces.list.iter().filter(strong).count();
     let text = format!(
-        "{count} joints have cohesion, tensile or compressive strength: the simulation leaves it out and has friction only"
+        "{count} joints have cohesion, tensile or compressive strength: the simulation ignores it and uses friction only"
     );
     (count > 0).then(|| Finding::new(FindingCode::LeftOut, text))
 }

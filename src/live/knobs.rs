@@ -109,8 +109,8 @@ pub fn change(scene: &mut Value, edits: &Edits) -> Result<(), InputError> {
     for (pointer, value) in edits {
         match scene.pointer_mut(pointer) {
             Some(old) if alike(old, value) => *old = value.clone(),
-            Some(_) => return refuse(format!("{pointer}: {value} is not of its kind")),
-            None => return refuse(format!("{pointer} leads nowhere in the scene")),
+            Some(_) => return refuse(format!("{pointer}: {value} has the wrong type")),
+            None => return refuse(format!("{pointer}: no such value in the scene")),
         }
     }
     Ok(())

@@ -229,7 +229,7 @@ impl Inside {
                 Err(e) => return Err(format!("{}: {e}", path.display())),
             }
         }
-        Err(format!("{stem}-1.json to {stem}-{NAMES}.json are all there already"))
+        Err(format!("{stem}-1.json to {stem}-{NAMES}.json already exist; remove some of them"))
     }
 }
 

@@ -57,7 +57,7 @@ pub fn run(file: &File, desk: &Desk) {
             Ok(Err(error)) => error,
             Err(_) => InputError::at(
                 JsonPath::root(),
-                "this question cannot be answered: a part of the program failed",
+                "this question cannot be answered: the program failed (please report it)",
             ),
         };
         let bytes = job.file.as_ref().as_ref().map_or(&[][..], Vec::as_slice);

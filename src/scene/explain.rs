@@ -26,7 +26,7 @@ impl Kind {
 const DEEPEST: usize = 10;
 
 fn too_deep(kind: &Kind) -> String {
-    format!("no value of a {} lies deeper than {DEEPEST} levels", kind.noun)
+    format!("a {} has at most {DEEPEST} levels", kind.noun)
 }
 
 /// The path of a failed read. Steps that serde cannot name end the path.
@@ -125,16 +125,14 @@ pub(super) fn syntax_error(
     } else {
         let before = source.text.get(..offset).unwrap_or("").chars().next_back();
         let hint = match word.as_str() {
-            "true" | "false" | "none" | "null" => {
-                Some("JSON writes true, false, null in small letters")
-            }
-            _ if rest.starts_with('\'') => Some("strings stand in double quotes"),
+            "true" | "false" | "none" | "null" => Some("write true, false and null in lower case"),
+            _ if rest.starts_with('\'') => Some("write strings in double quotes"),
             _ if rest.starts_with('/') || rest.starts_with('#') => Some("JSON has no comments"),
             _ if rest.starts_with('+')
                 || rest.starts_with('.')
                 || before.is_some_and(|c| c.is_ascii_digit() || c == '.' || c == '-') =>
             {
-                Some("numbers are written like -0.5 or 1e-3")
+                Some("write numbers like -0.5 or 1e-3")
             }
             _ => None,
         };
@@ -157,7 +155,7 @@ pub(super) fn syntax_error(
             }
             "expected `,` or `}`" | "expected `,` or `]`" => (
                 format!("not JSON: {message}"),
-                hint.or(Some("a comma or a closing bracket is missing before this place".into())),
+                hint.or(Some("a comma or a closing bracket is missing before this point".into())),
             ),
             "expected value" => ("not JSON: expected a value".into(), hint),
             "key must be a string" => ("not JSON: expected a key in double quotes".into(), hint),
@@ -182,7 +180,7 @@ const SHAPES: [&str; 7] = ["box", "polyhedron", "mesh", "prism", "sphere", "clum
 
 /// Kinds of shapes that other programs have, and what stands in for them.
 const ROUND: [&str; 5] = ["cylinder", "capsule", "cone", "ellipsoid", "disc"];
-const STAND_IN: &str = "spheres are the only round shapes: what stands on flat ends is a \"prism\" or \"polyhedron\" with as many sides as matter (it does not roll), what rolls is a \"clump\" of spheres";
+const STAND_IN: &str = "spheres are the only round shapes: use a \"prism\" or \"polyhedron\" with enough sides for a body on flat ends (it does not roll), or a \"clump\" of spheres for one that rolls";
 
 /// JSON whose keys or types are not those expected.
 fn data_error(source: &Source, path: JsonPath, error: &serde_json::Error) -> InputError {
@@ -288,7 +286,7 @@ fn plain(words: &str) -> String {
 
 fn type_hint(got: &str, wanted: &str) -> Option<&'static str> {
     if got.starts_with("string") && matches!(wanted, "f64" | "usize") {
-        return Some("numbers stand without quotes");
+        return Some("write numbers without quotes");
     }
     if got == "null" && wanted == "f64" {
         return Some("many programs write NaN and infinity as null: give a finite number");

@@ -99,7 +99,13 @@ fn place<'a>(document: &'a mut Value, pointer: &str) -> Result<&'a mut Value, In
                     }
                 }
             }
-            _ => return Err(missing(pointer, &path.key(token), "what is above it holds no parts")),
+            _ => {
+                return Err(missing(
+                    pointer,
+                    &path.key(token),
+                    "the value above it is neither an object nor a list",
+                ));
+            }
         };
     }
     if here.is_number() || here.is_null() || here == "infinite" {
@@ -109,7 +115,7 @@ fn place<'a>(document: &'a mut Value, pointer: &str) -> Result<&'a mut Value, In
         Value::Object(_) => "an object",
         Value::Array(_) => "a list",
         Value::String(_) => "text",
-        _ => "a truth value",
+        _ => "true or false",
     };
     let error = InputError::at(path, format!("{pointer} names {kind}, not a number"));
     Err(error.hint("point at a number inside it"))
@@ -177,7 +183,7 @@ mod tests {
             ("/templates/0/arch", "an object"),
             ("/blocks/0/id", "text"),
             ("/templates/0/arch/thicknes", "thickness"),
-            ("/templates/0/arch/radius/0", "no parts"),
+            ("/templates/0/arch/radius/0", "neither an object nor a list"),
             ("", "JSON pointer"),
         ] {
             let error = scene.with_field(pointer, 1.0).unwrap_err().to_string();

@@ -98,7 +98,7 @@ impl Sizes {
                         format!(
                             "the largest grain is {range} times the smallest, at most {RANGE} are possible"
                         ),
-                        "leave the finest and the coarsest out",
+                        "leave out the finest and the coarsest grains",
                     );
                 }
                 Ok(())

@@ -29,9 +29,9 @@ pub fn suggest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
                 String::new()
             };
             Some(if known.len() == 1 {
-                format!("the only one known is {}", list[0])
+                format!("the only choice is {}", list[0])
             } else {
-                format!("known are {}{more}", list.join(", "))
+                format!("choose one of {}{more}", list.join(", "))
             })
         }
     }
@@ -65,9 +65,9 @@ mod tests {
         assert_eq!(suggest("Shape", known).unwrap(), "did you mean \"shape\"?");
         assert_eq!(
             suggest("colour", known).unwrap(),
-            "known are \"density\", \"shape\", \"support\""
+            "choose one of \"density\", \"shape\", \"support\""
         );
-        assert_eq!(suggest("colour", ["a"]).unwrap(), "the only one known is \"a\"");
+        assert_eq!(suggest("colour", ["a"]).unwrap(), "the only choice is \"a\"");
         assert_eq!(suggest("colour", []), None);
         assert_eq!(
             suggest("R1_6", ["r01_06", "r10_06", "r01_16"]).unwrap(),

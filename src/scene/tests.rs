@@ -37,7 +37,7 @@ fn wrong_text_is_refused_with_place_and_remedy() {
         ),
         (
             r#" "gravity": [0, 0, .5] }"#,
-            "s.json:2:20: gravity[2]: not JSON: expected a value; hint: numbers are written like -0.5 or 1e-3",
+            "s.json:2:20: gravity[2]: not JSON: expected a value; hint: write numbers like -0.5 or 1e-3",
         ),
         (
             r#" "gravity": [0, 0, 1,] }"#,
@@ -45,11 +45,11 @@ fn wrong_text_is_refused_with_place_and_remedy() {
         ),
         (
             r#" "gravity": [0 0 1] }"#,
-            "s.json:2:16: gravity: not JSON: expected `,` or `]`; hint: a comma or a closing bracket is missing before this place",
+            "s.json:2:16: gravity: not JSON: expected `,` or `]`; hint: a comma or a closing bracket is missing before this point",
         ),
         (
             r#" "name": 'x' }"#,
-            "s.json:2:10: name: not JSON: expected a value; hint: strings stand in double quotes",
+            "s.json:2:10: name: not JSON: expected a value; hint: write strings in double quotes",
         ),
         (
             "// a remark\n}",
@@ -70,7 +70,7 @@ fn wrong_text_is_refused_with_place_and_remedy() {
         ),
         (
             r#" "gravity": [0, 0, "-9.81"] }"#,
-            "s.json:2:20: gravity[2]: expected a number, got string \"-9.81\"; hint: numbers stand without quotes",
+            "s.json:2:20: gravity[2]: expected a number, got string \"-9.81\"; hint: write numbers without quotes",
         ),
         (
             r#" "gravity": [0, 0, null] }"#,
@@ -99,7 +99,7 @@ fn wrong_text_is_refused_with_place_and_remedy() {
         ),
         (
             r#" "materials": { "a": { "density": 1, "colour": 2 } } }"#,
-            "s.json:2:38: materials.a.colour: unknown key; hint: known are \"density\", \"young\", \"poisson\" (or remove it)",
+            "s.json:2:38: materials.a.colour: unknown key; hint: choose one of \"density\", \"young\", \"poisson\" (or remove it)",
         ),
         (
             r#" "blocks": [ { "id": "a" } ] }"#,
@@ -120,7 +120,7 @@ fn wrong_text_is_refused_with_place_and_remedy() {
         ),
         (
             r#" "blocks": [ { "id": "a", "shape": { "cylinder": { "radius": 1 } } } ] }"#,
-            "s.json:2:38: blocks[0].shape.cylinder: unknown kind \"cylinder\"; hint: spheres are the only round shapes: what stands on flat ends is a \"prism\" or \"polyhedron\" with as many sides as matter (it does not roll), what rolls is a \"clump\" of spheres",
+            "s.json:2:38: blocks[0].shape.cylinder: unknown kind \"cylinder\"; hint: spheres are the only round shapes: use a \"prism\" or \"polyhedron\" with enough sides for a body on flat ends (it does not roll), or a \"clump\" of spheres for one that rolls",
         ),
         (
             r#" "blocks": [ { "id": "a", "box": { "size": [1, 1, 1] } } ] }"#,

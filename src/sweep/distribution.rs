@@ -48,19 +48,19 @@ impl Axis {
         let given: Vec<&str> = kinds.iter().filter(|k| k.1).map(|k| k.0).collect();
         let [what] = given[..] else {
             let message = if given.is_empty() {
-                "it is not said what it takes".into()
+                "no values are given".into()
             } else {
-                format!("{} are given together", given.join(" and "))
+                format!("{} cannot be combined", given.join(" and "))
             };
             return Err(InputError::at(JsonPath::root(), message)
-                .hint("give one of \"from\" and \"to\", \"values\", \"normal\", \"lognormal\""));
+                .hint("give \"from\" and \"to\", or \"values\", or \"normal\", or \"lognormal\""));
         };
         let truncates = vary.normal.is_some() || vary.lognormal.is_some();
         for (key, given) in [("min", vary.min), ("max", vary.max)] {
             if given.is_some() && !truncates {
                 return Err(at(
                     key,
-                    format!("cuts off normal and lognormal distributions, not {what:?}"),
+                    format!("applies to normal and lognormal distributions, not to {what:?}"),
                 )
                 .hint("remove it"));
             }
@@ -80,7 +80,7 @@ impl Axis {
             }
             (Some(from), Some(to), _) if vary.round && from.ceil() > to.floor() => {
                 return Err(at("to", format!("there is no whole number from {from} to {to}"))
-                    .hint("widen the range, or leave \"round\" out"));
+                    .hint("widen the range, or remove \"round\""));
             }
             (Some(from), Some(to), _) if from < to => (Kind::Interval { from, to }, None),
             (Some(from), Some(to), _) => {
@@ -101,25 +101,24 @@ impl Axis {
         };
         let count = match (values, vary.count, grid) {
             (Some(_), Some(_), _) => {
-                return Err(at("count", "\"values\" are counted already".into()).hint("remove it"));
+                return Err(
+                    at("count", "cannot be combined with \"values\"".into()).hint("remove it")
+                );
             }
             (Some(n), None, _) => n,
             (None, Some(_), false) => {
-                return Err(at("count", "belongs to a grid".into())
-                    .hint("the number of rows is that of \"sampling\""));
+                return Err(at("count", "applies to a grid only".into())
+                    .hint("\"sampling\" gives the number of rows"));
             }
             (None, None, false) => 0,
             (None, Some(n), true) if n >= 2 => n,
             (None, Some(n), true) => {
                 return Err(at("count", format!("must be at least 2, got {n}"))
-                    .hint("one value belongs into the scene"));
+                    .hint("put a single value into the scene"));
             }
             (None, None, true) => {
-                return Err(InputError::at(
-                    JsonPath::root(),
-                    "a grid needs to know how many values",
-                )
-                .hint("add \"count\": 10, or another \"sampling\""));
+                return Err(InputError::at(JsonPath::root(), "a grid needs the number of values")
+                    .hint("add \"count\": 10, or another \"sampling\""));
             }
         };
         Ok(Self { kind, count, round: vary.round })
@@ -186,11 +185,11 @@ fn gauss(vary: &Vary) -> Result<Kind, InputError> {
     let path = JsonPath::root().key(key);
     if !(sd > 0.0 && sd.is_finite()) {
         return Err(InputError::at(path.key("sd"), format!("must be > 0, got {sd}"))
-            .hint("a number that does not vary belongs into the scene"));
+            .hint("put a number that does not vary into the scene"));
     }
     if exponential && mean <= 0.0 {
         return Err(InputError::at(path.key("mean"), format!("must be > 0, got {mean}"))
-            .hint("it is the mean of the value itself"));
+            .hint("give the mean of the value itself, not of its logarithm"));
     }
     let (min, max) = (vary.min.unwrap_or(f64::NEG_INFINITY), vary.max.unwrap_or(f64::INFINITY));
     if min >= max {

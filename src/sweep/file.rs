@@ -142,7 +142,7 @@ fn taken_up(
         file: name.into(),
         wanted: "this plan".into(),
         why,
-        remedy: "give another --output, or --restart to begin again",
+        remedy: "give another --output, or use --restart to start again",
     };
     if let Some(why) = header.differs(old) {
         return Err(differs(why.into()));
@@ -232,29 +232,25 @@ fn parse(name: &str, bytes: &[u8]) -> Result<Contents, RowsError> {
     let mut lines = bytes.split(|b| *b == b'\n').enumerate().filter(|(_, l)| !l.is_empty());
     let header: Header = match lines.next() {
         Some((_, line)) => serde_json::from_slice(line)
-            .map_err(|e| damaged(1, format!("not the beginning of a file of rows: {e}")))?,
+            .map_err(|e| damaged(1, format!("not the header of a file of rows: {e}")))?,
         None => {
-            return Err(damaged(
-                1,
-                "not the beginning of a file of rows: it has no whole header".into(),
-            ));
+            return Err(damaged(1, "not the header of a file of rows: it is incomplete".into()));
         }
     };
     let (mut rows, mut unchecked, seal) = (BTreeMap::new(), 0, Seal::new(first_line(bytes)));
     for (index, text) in lines {
         let at = |why: String| damaged(index + 1, why);
-        let row: Row = serde_json::from_slice(text).map_err(|e| {
-            at(format!("not a row: {e}; remove the line to have the row computed again"))
-        })?;
+        let row: Row = serde_json::from_slice(text)
+            .map_err(|e| at(format!("not a row: {e}; remove the line to recompute the row")))?;
         if row.row >= header.rows
             || !header.shard.holds(row.row)
             || row.parameters.len() != header.plan.vary.len()
         {
-            return Err(at(format!("row {} is none of this plan", row.row)));
+            return Err(at(format!("row {} does not belong to this plan", row.row)));
         }
         unchecked += usize::from(!seal.require(text, header.sums, at)?);
         add(&mut rows, row).map_err(|number| {
-            at(format!("row {number} is there twice with different answers; remove one of them"))
+            at(format!("row {number} appears twice with different answers; remove one of them"))
         })?;
     }
     Ok(Contents { header, rows: rows.into_values().collect(), unchecked })

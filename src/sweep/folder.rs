@@ -61,7 +61,7 @@ impl Folder {
                     file: path.display().to_string(),
                     wanted: "this plan".into(),
                     why: why.into(),
-                    remedy: "give another --output, or --restart to begin again",
+                    remedy: "give another --output, or use --restart to start again",
                 }),
                 None => Ok(folder),
             },
@@ -171,7 +171,7 @@ impl Folder {
             for row in remains.rows {
                 file::add(&mut all.rows, row).map_err(|number| {
                     differs(
-                        format!("row {number} has another answer in a file before it"),
+                        format!("row {number} has another answer in an earlier file"),
                         "move one of the two away",
                     )
                 })?;

@@ -84,7 +84,7 @@ const POINTS: usize = 21;
 
 /// Whether a row failed; nothing where that is not known.
 ///
-/// Failed is what falls or stands only with a pre-stress, a value below what the plan requires, and
+/// Failed is what falls or stands only with self-stress, a value below what the plan requires, and
 /// what no load factor lets stand.
 pub(super) fn failed(question: &Question, answer: &RowAnswer) -> Option<bool> {
     match (question.require(), answer.status) {
@@ -181,8 +181,7 @@ fn against_demand(quantity: &str, rows: &[Row], fits: bool) -> Option<Fragility>
     let fit = fits.then(|| match strengths.iter().all(|s| s.is_finite()) {
         true => LognormalFit::of_capacities(&strengths),
         false => {
-            Err("some rows have no scale at which they overturn: their capacity is not known"
-                .into())
+            Err("some rows have no scale at which they overturn: their capacity is unknown".into())
         }
     });
     let points = (0..POINTS).map(|k| point(at(k))).collect();

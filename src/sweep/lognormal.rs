@@ -60,15 +60,15 @@ impl LognormalFit {
             return Err("all rows fail or none does".into());
         }
         if failed.0 >= stood.1 || stood.0 >= failed.1 {
-            return Err("no intensity is survived above one that fails: the share is a step, and its dispersion is not known".into());
+            return Err("intensities that fail and that are survived do not overlap: the share is a step of unknown dispersion".into());
         }
         let mean = logs.iter().map(|r| r.0).sum::<f64>() / logs.len() as f64;
         let spread = logs.iter().map(|r| (r.0 - mean).powi(2)).sum::<f64>() / logs.len() as f64;
         let spread = spread.sqrt();
         let unit: Vec<(f64, bool)> = logs.iter().map(|r| ((r.0 - mean) / spread, r.1)).collect();
-        let line = probit(&unit).ok_or("the likelihood has no greatest value")?;
+        let line = probit(&unit).ok_or("the likelihood has no maximum")?;
         if line.b <= 0.0 {
-            return Err("less fail as the intensity grows".into());
+            return Err("fewer rows fail as the intensity grows".into());
         }
         Ok(Self::along(&line, (mean, spread), (logs_ends(&logs), logs.len())))
     }
@@ -204,7 +204,7 @@ mod tests {
             (&[(1.0, false), (2.0, true)][..], "step"),
             (&[(1.0, false), (2.0, true), (2.0, false)][..], "step"),
             (&[(0.0, false), (2.0, true)][..], "above zero"),
-            (&[(1.0, true), (2.0, false), (3.0, true), (4.0, false)][..], "less fail"),
+            (&[(1.0, true), (2.0, false), (3.0, true), (4.0, false)][..], "fewer rows fail"),
         ] {
             let why = LognormalFit::of_fates(rows).unwrap_err();
             assert!(why.contains(word), "{why}");

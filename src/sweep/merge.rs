@@ -60,7 +60,7 @@ pub fn merge(paths: &[impl AsRef<Path>]) -> Result<Option<Merged>, RowsError> {
         }
         for row in more {
             add(&mut rows, row).map_err(|number| {
-                differs("the files before it", format!("row {number} has another answer"))
+                differs("the earlier files", format!("row {number} has another answer"))
             })?;
         }
     }

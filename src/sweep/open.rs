@@ -252,7 +252,7 @@ impl Sweep {
                 self.pointers[k].set(&mut scene, word);
                 let Err(e) = resolves(&scene) else { continue };
                 let path = JsonPath::root().key("vary").index(k).key("values").index(i);
-                let message = format!("with {word:?} there: {}", where_and_what(&e));
+                let message = format!("with the value {word:?}: {}", where_and_what(&e));
                 return Err(InputError { hint: e.hint, ..InputError::at(path, message) });
             }
         }
@@ -268,7 +268,7 @@ impl Sweep {
             Ok(assembly) if assembly.live.iter().all(|w| *w == Wrench::zero()) => {
                 let error = InputError::at(
                     JsonPath::root().key("question"),
-                    "the scene of row 0 has no live load on a free block to ask about",
+                    "the scene of row 0 has no live load on a free block",
                 );
                 Err(error.hint("add \"loads\": { \"live\": [ { \"weight\": [1, 0, 0] } ] } to the scene, or ask \"tilt\""))
             }
@@ -344,11 +344,11 @@ fn fits(pointer: &Pointer, axis: &Axis, place: Target) -> Result<(), InputError>
             JsonPath::root(),
             format!("the scene has no such number: {}", e.message),
         )
-        .hint("spell it as the scene format does"));
+        .hint("check the spelling against the scene format"));
     }
     if !axis.is_whole() && with(first.floor() + 0.5).is_err() {
         let message = format!(
-            "{} of the scene is a count, and not all its values are whole numbers",
+            "{} of the scene is a count, but not all its values are whole numbers",
             pointer.path
         );
         return Err(InputError::at(JsonPath::root(), message).hint("add \"round\": true"));
@@ -368,9 +368,9 @@ fn words_fit(pointer: &Pointer, words: &[Parameter], place: Target) -> Result<()
             let what = place.word();
             InputError::at(
                 JsonPath::root().index(k),
-                format!("the {what} takes no {word} at {}: {}", pointer.path, e.message),
+                format!("the {what} does not accept {word} at {}: {}", pointer.path, e.message),
             )
-            .hint(format!("spell it as the {what} format does"))
+            .hint(format!("check the spelling against the {what} format"))
         })?;
     }
     Ok(())
@@ -387,7 +387,7 @@ fn rows(plan: &Plan, axes: &[Axis]) -> Result<usize, InputError> {
                     JsonPath::root().key("vary"),
                     format!("the grid has more than {MOST_ROWS} rows"),
                 )
-                .hint("take fewer values, or sample")
+                .hint("use fewer values, or another \"sampling\"")
             });
         }
         Sampling::LatinHypercube { samples } => ("latin_hypercube", samples),
@@ -397,7 +397,7 @@ fn rows(plan: &Plan, axes: &[Axis]) -> Result<usize, InputError> {
     let path = path.key(key).key("samples");
     if key == "sobol" && (rows > SOBOL.0 || axes.len() > SOBOL.1) {
         let message = format!(
-            "Sobol points go up to {} rows and {} numbers, got {rows} and {}",
+            "Sobol sampling takes at most {} rows and {} numbers, got {rows} and {}",
             SOBOL.0,
             SOBOL.1,
             axes.len()

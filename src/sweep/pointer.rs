@@ -36,10 +36,8 @@ impl Pointer {
             None => Ok(pointer),
             Some(value) => {
                 let hint = match value {
-                    Value::String(_) => {
-                        "numbers vary by themselves, words with \"values\": [\"one\", \"another\"]"
-                    }
-                    _ => "a pointer ends at one number",
+                    Value::String(_) => "list words to vary as \"values\": [\"one\", \"another\"]",
+                    _ => "the pointer must lead to a single number",
                 };
                 let text =
                     format!("{} of the scene is not a number: {}", pointer.path, what(value));
@@ -58,7 +56,8 @@ impl Pointer {
             None => Ok(pointer),
             Some(value) => {
                 let text = format!("{} of the scene is not a word: {}", pointer.path, what(value));
-                Err(InputError::at(JsonPath::root(), text).hint("a pointer ends at one word"))
+                Err(InputError::at(JsonPath::root(), text)
+                    .hint("the pointer must lead to a single word"))
             }
         }
     }
@@ -91,7 +90,7 @@ impl Pointer {
                         Some(next) => next,
                         None => {
                             let message = format!(
-                                "{text:?} leads nowhere: {token:?} is none of the {} elements of its list",
+                                "{text:?} does not exist: {token:?} is none of the {} elements of its list",
                                 list.len()
                             );
                             return Err(
@@ -102,7 +101,7 @@ impl Pointer {
                 }
                 _ => {
                     let message = format!(
-                        "{text:?} leads nowhere: {path} of the scene is {value}, which has no {token:?}"
+                        "{text:?} does not exist: {path} of the scene is {value}, which has no {token:?}"
                     );
                     return Err(InputError::at(root(), message));
                 }
@@ -161,7 +160,7 @@ fn no_key(text: &str, token: &str, map: &Map<String, Value>) -> InputError {
         hint,
         ..InputError::at(
             JsonPath::root(),
-            format!("{text:?} leads nowhere: the scene has no key {token:?} there"),
+            format!("{text:?} does not exist: the scene has no key {token:?} there"),
         )
     }
 }

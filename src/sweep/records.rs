@@ -38,11 +38,14 @@ pub(super) fn read(plan: &mut Plan, folder: &Path) -> Result<(), InputError> {
         if let Some(name) = &vary.folder {
             let at = path.key("folder");
             if !is_record(&vary.pointer) {
-                return Err(InputError::at(at, "only records are taken from a folder")
-                    .hint(format!("its pointer is {:?} or {:?}", RECORDS[0], RECORDS[1])));
+                return Err(InputError::at(
+                    at,
+                    "only ground-motion records can be read from a folder",
+                )
+                .hint(format!("the pointer of a record is {:?} or {:?}", RECORDS[0], RECORDS[1])));
             }
             if vary.values.is_some() {
-                return Err(InputError::at(at, "a folder and values are both given"));
+                return Err(InputError::at(at, "\"folder\" and \"values\" cannot be combined"));
             }
             let names = files(&folder.join(name))
                 .map_err(|e| InputError::at(at.clone(), format!("the folder {name}: {e}")))?;
@@ -70,8 +73,9 @@ pub(super) fn read(plan: &mut Plan, folder: &Path) -> Result<(), InputError> {
         let record = Record::read(&[file.as_path()], None).map_err(|e| {
             // A plan has no option that says units.
             let place = e.position.map_or(String::new(), |(line, _)| format!(":{line}"));
-            InputError::at(path, format!("the record {name}{place}: {}", e.message))
-                .hint("a record of a plan says its units itself: a column \"a (m/s2)\"")
+            InputError::at(path, format!("the record {name}{place}: {}", e.message)).hint(
+                "a record of a plan must state its units, for example in a column \"a (m/s2)\"",
+            )
         })?;
         plan.records.push(Series { name, ..Series::of(&record) });
     }

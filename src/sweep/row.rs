@@ -82,7 +82,7 @@ impl Header {
             p.vary.iter().map(|v| super::Vary { name: None, ..v.clone() }).collect()
         };
         [
-            (self.voussoir != other.voussoir, "another version of this program made them"),
+            (self.voussoir != other.voussoir, "they were made by another version of this program"),
             (a.question != b.question, "the question differs"),
             (vary(a) != vary(b), "what varies differs"),
             (a.sampling != b.sampling, "the sampling differs"),
@@ -101,7 +101,7 @@ impl Header {
 pub enum RowStatus {
     /// It stands.
     Stable,
-    /// It stands only with a pre-stress that nobody applied.
+    /// It stands only with self-stress.
     Conditional,
     /// It falls.
     Unstable,

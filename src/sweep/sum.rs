@@ -73,15 +73,16 @@ impl Seal {
         all: bool,
         at: impl FnOnce(String) -> RowsError,
     ) -> Result<bool, RowsError> {
-        let remedy = "remove the line to have the row computed again; where the first line was edited, bring back what it was";
+        let remedy =
+            "remove the line to recompute the row, or restore the first line if that was edited";
         match self.check(line) {
             Checked::Same => Ok(true),
             Checked::Unknown if !all => Ok(false),
             Checked::Unknown => {
-                Err(at(format!("the check sum of the row is gone, so it was edited; {remedy}")))
+                Err(at(format!("the row was edited: its checksum is missing; {remedy}")))
             }
             Checked::Edited => Err(at(format!(
-                "the row or the first line of the file was edited: its check sum is another; {remedy}"
+                "the row or the first line of the file was edited: the checksum differs; {remedy}"
             ))),
         }
     }

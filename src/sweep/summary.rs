@@ -132,7 +132,7 @@ pub enum Shown {
     Undecided,
     /// The scene has no answer.
     Error,
-    /// It falls, or stands only with a pre-stress, whatever the value.
+    /// It falls, or stands only with self-stress, whatever the value.
     Falls,
 }
 

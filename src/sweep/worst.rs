@@ -131,8 +131,10 @@ pub fn worst(
     };
     let values: Vec<String> =
         ends.iter().enumerate().map(|(k, e)| format!("{} {}", e.label, e.at(corner, k))).collect();
-    argument
-        .push(format!("the worst of {corners} corners, each of them asked: {}", values.join(", ")));
+    argument.push(format!(
+        "the worst of {corners} corners, all of them computed: {}",
+        values.join(", ")
+    ));
     argument.push(between(scene, &ends, asked));
     Ok(Worst { scene: worst, argument, corners })
 }
@@ -143,7 +145,7 @@ fn refuse(range: &Between, message: &str) -> InputError {
 
 fn lowest_friction(scene: &mut Scene, range: &Between, law: Law) -> Result<String, InputError> {
     if range.low < 0.0 {
-        return Err(refuse(range, "a coefficient of friction is not below 0"));
+        return Err(refuse(range, "a coefficient of friction must not be negative"));
     }
     scene.joints.default.friction = Some(Friction::Coefficient(range.low));
     scene.joints.default.friction_angle_deg = None;
@@ -155,14 +157,14 @@ fn lowest_friction(scene: &mut Scene, range: &Between, law: Law) -> Result<Strin
         .count();
     let given = scene.interfaces.iter().filter(|i| i.friction.is_some()).count();
     let mut text = format!(
-        "friction {}, the lowest, is the worst: every force that is admissible there is admissible at a higher one",
+        "friction {}, the lowest, is the worst: every force that is admissible there is admissible at a higher value",
         range.low
     );
     if law == Law::Coulomb {
-        text.push_str("; the state under dry friction is computed there alone");
+        text.push_str("; the state under dry friction is computed for this value only");
     }
     if own + given > 0 {
-        text.push_str(&format!(" ({} with a friction of their own keep it)", own + given));
+        text.push_str(&format!(" ({} with their own friction keep it)", own + given));
     }
     Ok(text)
 }
@@ -204,7 +206,7 @@ fn numbers(scene: &Scene, range: &Between) -> Result<Vec<Ends>, InputError> {
             if list.is_empty() {
                 return Err(refuse(
                     range,
-                    "the scene gives no density: all blocks have the same, which changes nothing",
+                    "the scene gives no density: all blocks have the same one, whose value has no effect",
                 )
                 .hint("give blocks a material, \"materials\": { … }"));
             }
@@ -219,13 +221,13 @@ fn numbers(scene: &Scene, range: &Between) -> Result<Vec<Ends>, InputError> {
         }
         _ => {
             return Err(
-                refuse(range, "unknown").hint("known are friction, density, density:NAME, load, and JSON pointers (/loads/dead/0/force/2)")
+                refuse(range, "unknown name").hint("the names are friction, density, density:NAME, load, and JSON pointers (/loads/dead/0/force/2)")
             );
         }
     };
     if list.iter().any(|e| matches!(e.what, What::Material(_) | What::Block(_))) && range.low <= 0.0
     {
-        return Err(refuse(range, "a density is above 0"));
+        return Err(refuse(range, "a density must be above 0"));
     }
     Ok(list)
 }
@@ -262,7 +264,7 @@ fn at_corner(base: &Scene, ends: &[Ends], corner: usize) -> Result<Scene, InputE
                 scene = Scene::from_value(json).map_err(|e| {
                     InputError::at(
                         JsonPath::root(),
-                        format!("--worst: {} = {value} is no scene: {e}", end.label),
+                        format!("--worst: {} = {value} gives no valid scene: {e}", end.label),
                     )
                 })?;
             }
@@ -300,17 +302,17 @@ fn between(scene: &Scene, ends: &[Ends], asked: &Question) -> String {
     let is_limit = matches!(asked, Question::Limit(_));
     let moving = is_limit && scene.loads.live.iter().any(body);
     if !linear || moving {
-        return "found by search over the corners: values between them were not asked".into();
+        return "found by search over the corners: values between them were not computed".into();
     }
     let what = if is_limit {
         "the bound is a concave function of densities and loads, least at a corner"
     } else {
-        "forces that balance the corners mix into forces that balance every value between them"
+        "mixtures of the forces at the corners balance every value between them"
     };
     let dry = if asked.law() == Law::Coulomb {
-        "; dry friction was asked at the corners alone"
+        "; dry friction was computed at the corners only"
     } else {
         ""
     };
-    format!("found by search over the corners; nothing between them is worse: {what}{dry}")
+    format!("found by search over the corners; no value between them is worse: {what}{dry}")
 }

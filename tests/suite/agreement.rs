@@ -37,7 +37,7 @@ const SLOW: [(&str, &str); 5] = [
     ("dome", "stands; 3 s in this profile"),
     (
         "dome-with-openings",
-        "needs a pre-stress; the engine's friction holds the stones over its openings, in 22 s",
+        "needs self-stress; the engine's friction holds the stones over its openings, in 22 s",
     ),
     ("dome-with-oculus", "stands; 3 s in this profile"),
 ];

@@ -96,7 +96,7 @@ fn loads_spread_at_an_angle_and_across() {
         Ok(_) => panic!("no mistake: {value}"),
         Err(e) => format!("{}: {}", e.path, e.message),
     };
-    assert!(told(&both).contains("fill.dispersal_deg: excludes dispersal"));
+    assert!(told(&both).contains("fill.dispersal_deg: cannot be combined with dispersal"));
     assert!(told(&with("dispersal_deg", 90.0, None)).contains("between 0 and 90"));
     let width = |across: Option<f64>| {
         let scene = read(&with("dispersal_deg", 45.0, across));
@@ -169,12 +169,18 @@ fn an_intrados_by_points() {
         }
     };
     for (text, wanted) in [
-        (mistake(json!(skewed), json!({ "rise": 1.5 })), "spans[0].rise: is that of an intrados"),
-        (mistake(json!([[0, 0], [1, 1]]), json!({})), "intrados[0]: 2 points give no curve"),
-        (mistake(json!([[0, 0], [1, 1], [1, 1], [2, 0]]), json!({})), "intrados[2]: is the point"),
+        (mistake(json!(skewed), json!({ "rise": 1.5 })), "spans[0].rise: cannot be combined"),
+        (
+            mistake(json!([[0, 0], [1, 1]]), json!({})),
+            "intrados[0]: 2 points do not define a curve",
+        ),
+        (
+            mistake(json!([[0, 0], [1, 1], [1, 1], [2, 0]]), json!({})),
+            "intrados[2]: repeats the point",
+        ),
         (mistake(json!([[2, 0], [1, 1], [0, 0]]), json!({})), "intrados[0]: the points run"),
         (mistake(json!([[0, 0], [1, 1], [2, 0.2]]), json!({})), "intrados[2]: one springing"),
-        (mistake(json!([[0, 0], [1, -1], [2, 0]]), json!({})), "intrados[1]: lies no higher"),
+        (mistake(json!([[0, 0], [1, -1], [2, 0]]), json!({})), "intrados[1]: does not lie above"),
     ] {
         assert!(text.contains(wanted), "{text}: {wanted}");
     }
@@ -314,18 +320,24 @@ fn mistakes_are_named() {
         told(&|v: &mut Value| change(&mut v["templates"][0]["bridge"]))
     };
     for (text, wanted) in [
-        (bridge(&|b| b["piers"] = json!([])), "templates[0].bridge.piers: 2 spans have 1 piers"),
+        (
+            bridge(&|b| b["piers"] = json!([])),
+            "templates[0].bridge.piers: must have one pier fewer than spans: 2 spans need 1, got 0",
+        ),
         (bridge(&|b| b["piers"][0]["width"] = json!(0.4)), "piers[0].width: the rings beside it"),
         (bridge(&|b| b["fill"]["gradient"] = json!(0.5)), "fill.cover: the road is"),
-        (bridge(&|b| b["fill"]["passive"] = json!(1.5)), "fill.friction_deg: excludes passive"),
+        (
+            bridge(&|b| b["fill"]["passive"] = json!(1.5)),
+            "fill.friction_deg: cannot be combined with passive",
+        ),
         (told(&|v| v["loads"]["live"][0]["road"]["x"] = json!(40)), "no bridge has its road"),
         (
             told(&|v| v["loads"]["live"][0]["force"] = json!([1, 0, -1])),
-            "loads.live[0].force: a load on a road presses down",
+            "loads.live[0].force: a load on a road must act downward",
         ),
         (
             told(&|v| v["loads"]["live"][0]["block"] = json!("pier_1")),
-            "loads.live[0].road: says where",
+            "loads.live[0].road: already places the load",
         ),
     ] {
         assert!(text.contains(wanted), "{text}: {wanted}");
@@ -517,8 +529,8 @@ fn backing_of_masonry_behind_the_springings() {
     for (height, behind, wanted) in [
         (0.7, json!(null), "backing.masonry: there is no pier"),
         (0.7, json!(0.0), "backing.behind: must be > 0"),
-        (9.0, json!(0.8), "backing.height: as masonry it must lie between"),
-        (0.01, json!(0.8), "backing.height: as masonry it must lie between"),
+        (9.0, json!(0.8), "backing.height: must lie between"),
+        (0.01, json!(0.8), "backing.height: must lie between"),
     ] {
         let text = told(&value(height, behind));
         assert!(text.contains(wanted), "{text}");
@@ -527,14 +539,14 @@ fn backing_of_masonry_behind_the_springings() {
         let mut both = value(0.7, json!(0.8));
         both["templates"][0]["bridge"]["fill"]["backing"][key] = json!(2.0);
         let text = told(&both);
-        assert!(text.contains(&format!("backing.{key}: is of backing as fill")), "{text}");
+        assert!(text.contains(&format!("backing.{key}: applies to backing as fill")), "{text}");
     }
     let mut none = value(0.7, json!(0.8));
     none["templates"][0]["bridge"]["fill"]["backing"] = json!({ "height": 0.7 });
     assert!(told(&none).contains("backing.unit_weight: is missing"));
     let mut neither = value(0.7, json!(0.8));
     neither["templates"][0]["bridge"]["fill"]["backing"] = json!({ "height": 0.7, "behind": 1 });
-    assert!(told(&neither).contains("behind: is how far masonry reaches"));
+    assert!(told(&neither).contains("behind: applies to backing as masonry"));
 }
 
 /// The pressure of an elastic half-space is steeper below the patch than at its ends; all of the load

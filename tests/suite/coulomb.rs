@@ -1,4 +1,4 @@
-//! Dry friction: which scenes stand by themselves, and which only with a pre-stress that nobody
+//! Dry friction: which scenes stand by themselves, and which only with self-stress that nobody
 //! applied.
 
 use crate::ask::{self, cuboid, fixed, prism, sphere, verdict};

@@ -203,7 +203,7 @@ fn every_flip_of_the_scan_is_found() {
     assert!((values[0] + 0.5).abs() < 1e-9 && (values[1] - 0.5).abs() < 1e-9, "{values:?}");
 }
 
-/// Two stones that wedge each other: they fall, stand only with a pre-stress and stand within a tenth
+/// Two stones that wedge each other: they fall, stand only with self-stress and stand within a tenth
 /// of a thousandth of friction, between two values of the scan.
 #[test]
 fn two_flips_between_neighbours_of_the_scan_are_both_found() {

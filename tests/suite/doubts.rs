@@ -55,14 +55,14 @@ fn what_its_own_check_refused_is_named_first() {
     });
     let (cause, evidence, next) = why(&answer, &model);
     assert_eq!(cause, DoubtCause::Refused);
-    assert!(evidence.starts_with("what came out was refused by its own check: "), "{evidence}");
+    assert!(evidence.starts_with("the result failed its own check: "), "{evidence}");
     assert!(next.contains("--keep-all"), "{next}");
 }
 
 #[test]
 fn numbers_that_are_spread_wide_are_named() {
     for (model, words) in [
-        (block(1e-9), "the blocks' loads in N run from "),
+        (block(1e-9), "the blocks' loads in N range from "),
         (
             self::model(&scene(
                 1e3,
@@ -90,8 +90,8 @@ fn a_bracket_that_stayed_open_gives_its_safe_end() {
     });
     let (cause, evidence, next) = why(&answer, &model);
     assert_eq!(cause, DoubtCause::OpenBracket);
-    assert!(evidence.contains("it is known only to lie between 0.4 and 0.6"), "{evidence}");
-    assert!(next.ends_with("take the end on the safe side until then"), "{next}");
+    assert!(evidence.contains("it is only known to lie between 0.4 and 0.6"), "{evidence}");
+    assert!(next.ends_with("until then use the end on the safe side"), "{next}");
     let answer = undecided(&model, |l| {
         l.outcome = Outcome::Undecided;
         (l.bracket.lower, l.bracket.upper) = (f64::NEG_INFINITY, f64::INFINITY);
@@ -99,7 +99,7 @@ fn a_bracket_that_stayed_open_gives_its_safe_end() {
     let (cause, evidence, next) = why(&answer, &model);
     assert_eq!(cause, DoubtCause::NoAttempt);
     assert!(evidence.contains("gave both ends"), "{evidence}");
-    assert_eq!(next, "ask again with --keep-all");
+    assert_eq!(next, "run again with --keep-all");
 }
 
 /// An arch, of which friction alone does not tell which forces its weight produces.
@@ -116,8 +116,8 @@ fn a_state_that_neither_rests_nor_moves_is_named() {
         &model,
     );
     assert_eq!(cause, DoubtCause::DryFriction);
-    assert!(evidence.contains("comes neither to rest nor to a motion: "), "{evidence}");
-    assert_eq!(next, "ask `voussoir simulate`, which lets it move in time");
+    assert!(evidence.contains("neither come to rest nor start a motion: "), "{evidence}");
+    assert_eq!(next, "run `voussoir simulate`, which follows the blocks in time");
 
     // Of a load factor: friction limits that did not settle.
     let model = block(1.0);
@@ -128,8 +128,8 @@ fn a_state_that_neither_rests_nor_moves_is_named() {
     let answer = Limited { dry: Some(Proved::new(&model, dry)), ..Limited::from(bound) };
     let (cause, evidence, next) = why(&Answer::Limit(Box::new(answer)), &model);
     assert_eq!(cause, DoubtCause::DryFriction);
-    assert!(evidence.ends_with("; at rest up to 0.25000"), "{evidence}");
-    assert!(next.starts_with("simulate the load that matters"), "{next}");
+    assert!(evidence.ends_with("; at rest up to 0.25"), "{evidence}");
+    assert!(next.starts_with("simulate the load in question"), "{next}");
 }
 
 #[test]
@@ -157,8 +157,8 @@ fn a_range_without_scenes_says_how_many() {
     let answer = ask(&Question::Critical(options), &scene, &model, &Control::default()).unwrap();
     let (cause, evidence, next) = why(&answer, &model);
     assert_eq!(cause, DoubtCause::Range);
-    assert_eq!(evidence, "of 5 values 0 are undecided and 3 make no scene");
-    assert_eq!(next, "narrow --between to values that make scenes");
+    assert_eq!(evidence, "of 5 values 0 are undecided and 3 give no valid scene");
+    assert_eq!(next, "narrow --between to values that give valid scenes");
 }
 
 #[test]
@@ -167,8 +167,8 @@ fn a_simulation_says_why_it_did_not_end() {
     let settings = SimulationSettings::default();
     let outcome = simulate(&model, &settings, &mut |_| ControlFlow::Continue(())).unwrap();
     for (stop, cause, wanted) in [
-        (Stop::Broken, DoubtCause::BrokeOff, "needs no steps in time"),
-        (Stop::Stopped, DoubtCause::TimeLimit, "give it more with --time-limit"),
+        (Stop::Broken, DoubtCause::BrokeOff, "needs no time steps"),
+        (Stop::Stopped, DoubtCause::TimeLimit, "raise --time-limit"),
         (Stop::Rest, DoubtCause::StillMoving, "look at what slipped"),
         (Stop::Horizon, DoubtCause::StillMoving, "simulate longer: --seconds "),
     ] {

@@ -257,7 +257,7 @@ fn what_falls_by_itself_is_proved_to_have_no_load_factor() {
     let parsed = text::render(&honest, asked, Default::default(), Default::default()).to_string();
     let first = parsed.lines().next().unwrap();
     assert!(first.contains("without its live load it falls"), "{parsed}");
-    assert!(!parsed.contains("pre-stress"), "{parsed}");
+    assert!(!parsed.contains("self-stress"), "{parsed}");
 
     // Nor has it a tilt, though the bound of that did not come out.
     let model = ask::model(&slope);
@@ -294,12 +294,12 @@ fn pushed_up_it_has_none_either(slope: &Scene) {
     assert!(said.status == FactorStatus::NotAtRest && said.value.is_none(), "{said:?}");
     let parsed = text::render(&held, asked, Default::default(), Default::default()).to_string();
     let first = parsed.lines().next().unwrap();
-    assert!(first.contains("no λ with dry friction"), "{parsed}");
+    assert!(first.contains("no load factor with dry friction"), "{parsed}");
     assert!(first.contains("without its live load it falls"), "{parsed}");
-    assert!(!parsed.contains("pre-stress"), "{parsed}");
+    assert!(!parsed.contains("self-stress"), "{parsed}");
     let found = ask::check(&up, &held);
     assert!(found.proved(), "{found:?}");
-    // Nor does the row of a sweep say that a pre-stress would do.
+    // Nor does the row of a sweep say that self-stress would do.
     let asked = voussoir::analysis::ask(
         &Question::Limit(LimitOptions::default()),
         &up,
@@ -544,7 +544,7 @@ fn verbs_agree_about_domes_with_windows() {
             .output()
             .unwrap();
         let line = String::from_utf8(out.stdout).unwrap();
-        let words = "no λ with dry friction: not at rest under the dead load";
+        let words = "no load factor with dry friction: the blocks move under the dead load";
         assert!(line.contains(words) && out.status.code() == Some(1), "{line}: {:?}", out.status);
     }
 }

@@ -108,7 +108,7 @@ fn where_another_normal_may_hold_it_is_undecided_until_one_is_named() {
             assert_eq!((file.answer.verdict(), file.flattened.len()), (Some(want), 0));
         }
         let wrong = prepare(&named(["left", "right"], back)).unwrap_err();
-        assert!(wrong.to_string().contains("digs"), "{wrong}");
+        assert!(wrong.to_string().contains("pushes one of them into"), "{wrong}");
     }
 }
 

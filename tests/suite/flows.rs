@@ -280,7 +280,7 @@ fn a_hopper_runs_out_as_beverloo_has_it() {
         ..Protocol::default()
     };
     let heap = run(&protocol, 1);
-    assert!(charts(&protocol, &heap)[0].title.contains("run out"));
+    assert!(charts(&protocol, &heap)[0].title.contains("Discharged"));
     let Some(Seen::Hopper { rate, beverloo, bulk_density, course }) = &heap.seen else {
         panic!("{:?}", heap.refused)
     };

@@ -142,10 +142,10 @@ fn bad_records_are_refused_with_their_place() {
         ("r.csv", "t (s),a (m/s2)\n0,1\n0.1,inf\n".into(), "r.csv:3:", "not finite"),
         ("r.csv", "t (s),a (m/s2)\n0,1\n0.1,x\n0.2,1\n".into(), "r.csv:3:", "expected a number"),
         ("r.csv", "t (s),a (m/s2)\n0,1\n0.1,1\n0.3,1\n0.4,2\n".into(), "r.csv:4:", "not evenly"),
-        ("r.csv", "t (s),a (m/s2)\n0,1\n0.1,1\n0.1,1\n".into(), "r.csv:4:", "does not grow"),
-        ("r.csv", "t (s),a (m/s2)\n0,1\n0.1\n".into(), "r.csv:3:", "cut off"),
-        ("r.csv", "t (s),a (furlong)\n0,1\n0.1,1\n".into(), "r.csv:1:", "no unit"),
-        ("r.csv", "t (s),a (m/s2)\n".into(), "r.csv:", "no sample"),
+        ("r.csv", "t (s),a (m/s2)\n0,1\n0.1,1\n0.1,1\n".into(), "r.csv:4:", "must increase"),
+        ("r.csv", "t (s),a (m/s2)\n0,1\n0.1\n".into(), "r.csv:3:", "incomplete"),
+        ("r.csv", "t (s),a (furlong)\n0,1\n0.1,1\n".into(), "r.csv:1:", "not a unit"),
+        ("r.csv", "t (s),a (m/s2)\n".into(), "r.csv:", "no samples"),
         ("r.csv", String::new(), "r.csv:1:", "empty"),
         ("r.csv", "t (s);a (g)\n0,0;0,1\n0,1;0,2\n".into(), "r.csv:2:", "decimal point"),
         (
@@ -355,7 +355,11 @@ mod command {
         assert_eq!(code, 0, "{error}");
         assert!(out.contains("confirmed, not proved"), "{out}");
         let page = std::fs::read_to_string(&page).expect("a page");
-        for words in ["How far blocks moved", "Ways of the blocks that went farthest", "× 1.1"] {
+        for words in [
+            "Displacements of the blocks</h3>",
+            "Displacements of the blocks that moved farthest",
+            "× 1.1",
+        ] {
             assert!(page.contains(words), "{words}");
         }
         assert_eq!(std::fs::read_to_string(&csv).expect("a table").lines().count(), 11);
@@ -368,17 +372,17 @@ mod command {
     #[test]
     fn what_says_nothing_is_refused() {
         for (arguments, word) in [
-            ("kinematic BLOCK --scale 2", "--scale goes with"),
-            ("kinematic BLOCK --restitution 0.9", "--restitution goes with"),
-            ("kinematic BLOCK --pulse jump:1 --fc 1.2", "--fc says nothing"),
-            ("kinematic BLOCK --pulse square:1,1", "is no pulse"),
-            ("kinematic BLOCK --pulse jump:1 --restitution 1.5", "not a restitution"),
+            ("kinematic BLOCK --scale 2", "--scale requires"),
+            ("kinematic BLOCK --restitution 0.9", "--restitution requires"),
+            ("kinematic BLOCK --pulse jump:1 --fc 1.2", "--fc cannot be combined"),
+            ("kinematic BLOCK --pulse square:1,1", "is not a pulse"),
+            ("kinematic BLOCK --pulse jump:1 --restitution 1.5", "not a coefficient of"),
             ("kinematic BLOCK --ground structures/records/missing.csv", "missing.csv"),
             ("kinematic BLOCK --ground structures/README.md", "README.md"),
             ("kinematic structures/oblique-sliding.json --pulse jump:1", "slides"),
-            ("simulate BLOCK --scale 2", "--scale goes with"),
+            ("simulate BLOCK --scale 2", "--scale requires"),
             ("simulate BLOCK --pulse double-jump:1", "waits for a landing"),
-            ("simulate BLOCK --pulse jump:1 --toward 0,0,1", "along gravity"),
+            ("simulate BLOCK --pulse jump:1 --toward 0,0,1", "parallel to gravity"),
         ] {
             let (code, _, error) = voussoir(&arguments.replace("BLOCK", BLOCK));
             assert!(code == 2 && error.contains(word), "{arguments}: {code} {error}");

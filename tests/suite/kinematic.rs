@@ -359,7 +359,7 @@ fn walls_that_slide() {
         Default::default(),
         Default::default(),
     );
-    assert!(said.to_string().contains("no line is drawn in its place"), "{said}");
+    assert!(said.to_string().contains("no straight line is drawn in its place"), "{said}");
 }
 
 /// Turned about the vertical, at survey coordinates, in other units of length and weight, beside a
@@ -520,7 +520,7 @@ fn a_wall_in_courses_is_not_stronger_than_the_wall() {
         |line: &str| line.split("a0 = ").nth(1).map(|t| t.split(' ').next().unwrap().to_string());
     let one = text(&run(&["kinematic", &whole, "--toward", "1,0", "-q"]).stdout);
     assert_eq!(of(&said), of(&one), "{said}");
-    let met = |line: &str| line.split("it meets ").nth(1).map(|t| t[..6].to_string());
+    let met = |line: &str| line.split("linear check ").nth(1).map(|t| t[..6].to_string());
     assert_eq!(met(&said), met(&one), "{said}");
     assert!(said.contains("block by block"), "{said}");
 }

@@ -144,7 +144,7 @@ fn resolving_and_detection_end_when_they_are_told_to() {
     for n in [0, 10, times - 1] {
         let ends = after(n);
         let error = prepare_until(&scene, &|| ends(&asked)).expect_err("given up").to_string();
-        assert!(error.contains("the time was up after"), "{n}: {error}");
+        assert!(error.contains("time limit reached after"), "{n}: {error}");
         assert_eq!(asked.get(), n + 1);
     }
 }

@@ -368,7 +368,7 @@ fn numbers_vary_and_a_saved_scene_replaces_none() {
 fn what_cannot_be_followed_is_said_at_once() {
     let folder = tempfile::tempdir().unwrap();
     for (scene, words) in
-        [("-", "follows a file"), ("no.json", "cannot be read"), (".", "not a file")]
+        [("-", "needs a file to follow"), ("no.json", "cannot be read"), (".", "not a file")]
     {
         let output = Command::new(env!("CARGO_BIN_EXE_voussoir"))
             .args(["open", scene])

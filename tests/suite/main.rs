@@ -32,6 +32,7 @@ mod doubts;
 mod dry;
 mod dynamics;
 mod edges;
+mod experiments;
 mod extreme;
 #[cfg(target_os = "linux")]
 mod faults;

@@ -196,7 +196,7 @@ fn what_the_reader_says_of_a_mesh_is_said_and_what_it_refuses_is_refused() {
     desk.put("note.json", &mesh("note.obj"));
     for verb in ["assess", "check"] {
         let (_, out, err) = run(&at, &[verb, "note.json"]);
-        assert!(out.contains("note.obj: lines without a meaning"), "{out}{err}");
+        assert!(out.contains("note.obj: lines that do not describe polyhedra"), "{out}{err}");
     }
     // Inside out: mended with the word that is said of every shape.
     let turned: Vec<String> = FRUSTUM
@@ -215,11 +215,11 @@ fn what_the_reader_says_of_a_mesh_is_said_and_what_it_refuses_is_refused() {
     let cut = FRUSTUM.rsplit_once("v ").unwrap().0;
     let open = FRUSTUM.replace("f 5 6 7 8\n", "");
     for (name, content, says) in [
-        ("two.obj", two.as_str(), "the file holds 2 meshes (\"stone\", \"other\")"),
+        ("two.obj", two.as_str(), "the file has 2 meshes (\"stone\", \"other\")"),
         ("cut.obj", cut, "faces"),
         ("open.obj", open.as_str(), "open.obj: "),
         ("broken.obj", "v 0 0 zero\n", "broken.obj: line 1: coordinate z"),
-        ("words.txt", "nothing of the kind", "neither the extension nor the content"),
+        ("words.txt", "nothing of the kind", "unknown from both the extension and the content"),
         ("scene.json", "{}", "this is JSON, not a mesh"),
         ("empty.stl", "", "no triangles"),
     ] {
@@ -271,7 +271,7 @@ fn a_path_leads_nowhere_but_to_a_mesh_in_the_folder() {
         let made =
             Command::new("mkfifo").arg(at.join("pipe.obj")).status().is_ok_and(|s| s.success());
         if made {
-            cases.push(("pipe.obj".into(), "this is no regular file"));
+            cases.push(("pipe.obj".into(), "this is not a regular file"));
         } else {
             crate::skipped("no mkfifo");
         }
@@ -315,7 +315,7 @@ fn a_path_leads_nowhere_but_to_a_mesh_in_the_folder() {
     desk.put("scene.json", &mesh("/dev/zero"));
     let (code, _, err) = run(&at, &["assess", "scene.json", "--allow-outside"]);
     assert!(
-        code == Some(2) && (cfg!(not(unix)) || err.contains("this is no regular file")),
+        code == Some(2) && (cfg!(not(unix)) || err.contains("this is not a regular file")),
         "{err}"
     );
 }

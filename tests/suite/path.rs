@@ -269,10 +269,10 @@ fn supports_move_outwards_where_there_is_an_outwards() {
     for (moves, word) in [
         (vec![SupportMove::outwards("pier_*", 0.01)], "pier_*: there is no such support"),
         (vec![SupportMove::outwards("v*", 0.01)], "v*: there is no such support"),
-        (vec![SupportMove::outwards("*_left", 0.01)], "springer_left: one support alone has no"),
+        (vec![SupportMove::outwards("*_left", 0.01)], "springer_left: `out` is undefined"),
         (
             vec![SupportMove::outwards("*", 0.01), to("springer_left", [0.1, 0.0, 0.0])],
-            "springer_left is told to move twice",
+            "springer_left: two movements are given",
         ),
         (vec![SupportMove::outwards("*", f64::NAN)], "not finite"),
         (vec![SupportMove::outwards("*", 0.0)], "no support moves"),
@@ -286,7 +286,7 @@ fn supports_move_outwards_where_there_is_an_outwards() {
     let moves = vec![SupportMove::outwards("s*", 0.01)];
     let question = Question::Settle(SettleOptions { moves, ..Default::default() });
     let said = ask(&question, &beam, &model(&beam), &Control::default()).expect_err("no outwards");
-    assert!(said.to_string().contains("s0 is in the middle"), "{said}");
+    assert!(said.to_string().contains("s0: `out` is undefined at the centre"), "{said}");
 }
 
 /// Voussoirs 0 to 2 turn about the intrados of the left springing, with hinges at the extrados of
@@ -595,7 +595,7 @@ fn an_arch_that_spreads_into_a_stranger_is_not_followed_through_it() {
     let file = followed_open(&scene, moves);
     let said = file.answer.path().unwrap();
     assert_eq!(said.status, PathStatus::Open, "{said:?}");
-    assert!(said.why.as_ref().is_some_and(|why| why.contains("come to touch")), "{said:?}");
+    assert!(said.why.as_ref().is_some_and(|why| why.contains("come into contact")), "{said:?}");
 }
 
 /// A path that begins at a saved pose goes on as it would have gone from the start.

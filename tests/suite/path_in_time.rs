@@ -69,7 +69,7 @@ fn an_arch_whose_supports_are_carried_apart_falls_where_that_is_proved() {
 fn supports_that_stay_are_not_carried() {
     let there = model(&arch(4, 0.2, 180.0));
     let settings = SimulationSettings::default();
-    for (way, pace, word) in [(0.0, 1e-3, "no support moves"), (0.1, 0.0, "a pace must be > 0")] {
+    for (way, pace, word) in [(0.0, 1e-3, "no support moves"), (0.1, 0.0, "the pace must be > 0")] {
         let ways = &apart(&there, way);
         let watch = &mut |_: &Progress| ControlFlow::Continue(());
         let said = carry(&there, Carriage { ways, pace }, &settings, watch).expect_err(word);
@@ -77,7 +77,7 @@ fn supports_that_stay_are_not_carried() {
     }
 }
 
-/// The table of `docs/path.md`, from the start: minutes.
+/// The table of `docs/lab/path.md`, from the start: minutes.
 #[test]
 #[ignore = "prints a table; takes minutes"]
 fn the_table() {

@@ -218,7 +218,7 @@ fn loads_and_members_come_and_go() {
     );
     let file = result(&scene, options());
     use Verdict::{Stable, Unstable};
-    assert!(list(&file)[2].no_margin.as_ref().unwrap().contains("hanging weight"));
+    assert!(list(&file)[2].no_margin.as_ref().unwrap().contains("not a weight along gravity"));
     assert_eq!(verdicts(&file), [Stable, Stable, Stable, Unstable, Stable]);
     // The weight is 1: it tips under a force of 1 at half its height, and slides under 0.6.
     let last = list(&file)[4].load_factor().unwrap();
@@ -314,12 +314,12 @@ fn errors_in_stages_name_place_and_remedy() {
     refused(
         json!([{ "add": ["stone"] }, { "add": ["stone"] }]),
         "stages[1].add[0]",
-        "there already",
+        "already in place",
     );
     refused(
         json!([{ "remove": ["stone"] }, { "remove": ["stone"] }]),
         "stages[1].remove[0]",
-        "is not there",
+        "is not in place",
     );
     refused(json!([{ "add": ["stone", "s*"] }]), "stages[0].add[1]", "named twice");
     refused(json!([{ "hold": ["ground"] }]), "stages[0].hold[0]", "held anyway");

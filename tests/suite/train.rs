@@ -112,7 +112,7 @@ fn a_road_on_a_missing_block_is_an_error() {
         ask(&question, &scene, &whole.without(&[gone]), &Control::default()).expect_err("an error");
     let text = format!("{}: {} ({})", e.path, e.message, e.hint.unwrap_or_default());
     assert!(text.starts_with("train.axles[0]: at x = "), "{text}");
-    assert!(text.contains("\"v02\"") && text.contains("as it was prepared"), "{text}");
+    assert!(text.contains("\"v02\"") && text.contains("with all blocks of its bridge"), "{text}");
 }
 
 /// The mirror image of a position is the train turned round: both directions of travel have the
@@ -199,15 +199,15 @@ fn mistakes_are_named() {
         (told(&|v| v["train"]["axles"] = json!([])), "train.axles: the train has no axles"),
         (told(&|v| v["train"]["step"] = json!(0)), "train.step: must be > 0"),
         (told(&|v| v["train"]["step"] = json!(1e-9)), "train.step: makes more than"),
-        (told(&|v| v["train"]["path"] = json!([2, 1])), "train.path: the way goes"),
-        (told(&|v| v["train"]["path"] = json!([40, 50])), "train.path: no axle comes to stand"),
+        (told(&|v| v["train"]["path"] = json!([2, 1])), "train.path: the path must run"),
+        (told(&|v| v["train"]["path"] = json!([40, 50])), "train.path: no axle reaches a span"),
         (
             told(&|v| v["train"]["axles"][0]["force"] = json!(-1)),
             "train.axles[0].force: must be > 0",
         ),
         (
             told(&|v| v["train"]["axles"][0]["force"] = json!([1, 0, -1])),
-            "train.axles[0].force: an axle presses down",
+            "train.axles[0].force: an axle must press down",
         ),
         (
             told(&|v| v["train"]["axles"][0]["patch"] = json!(0)),
@@ -218,7 +218,7 @@ fn mistakes_are_named() {
                 v["templates"] =
                     json!([{ "column": { "blocks": 2, "size": [1, 1, 1], "material": "ring" } }]);
             }),
-            "train: no road carries the train",
+            "train: the scene has no road",
         ),
     ] {
         assert!(text.contains(wanted), "{text}: {wanted}");
@@ -295,7 +295,7 @@ fn other_positions_than_the_worst_bear_what_it_does() {
     let chart = tell::charts(&least).remove(0);
     let names: Vec<&str> = chart.series.iter().map(|s| s.name.as_str()).collect();
     let names = names.join(", ");
-    assert!(names.contains("at most") && names.contains("with dry friction"), "{names}");
+    assert!(names.contains("upper bound") && names.contains("with dry friction"), "{names}");
     let table = tell::csv(&least).expect("a table");
     assert_eq!(table.lines().count(), list.len() + 1);
 }

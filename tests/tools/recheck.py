@@ -290,7 +290,7 @@ def verdict(scene, standing, said):
         if power(scene.dead, rates) < GAIN * scale(scene, speed):
             raise Refuted("the mechanism gains no power")
     if claim == "conditional":
-        raise NotJudged("that a pre-stress is needed")
+        raise NotJudged("that self-stress is needed")
 
 
 def factor(scene, evidence, said):
@@ -413,7 +413,7 @@ def judge(result, model):
 
 
 def verdict_or_not(scene, standing, said):
-    """That a pre-stress is needed is left aside beside a load factor."""
+    """That self-stress is needed is left aside beside a load factor."""
     try:
         verdict(scene, standing, said)
     except NotJudged:

@@ -1,4 +1,4 @@
-"""Tells whether things made of rigid pieces that only touch stand or fall, and proves it.
+"""Certified stability analysis of masonry and granular assemblies of rigid blocks.
 
 >>> import voussoir
 >>> scene = voussoir.Scene("Two boxes", friction=0.6, density=2400)

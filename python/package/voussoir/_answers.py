@@ -28,7 +28,7 @@ class Verdict(str, Enum):
     STABLE = "stable"
     """Forces inside the friction cones balance every block, and the loads produce them."""
     CONDITIONAL = "conditional"
-    """Such forces exist, but they need a pre-stress that nobody applied. Not safe."""
+    """Such forces exist, but they need self-stress. Not safe."""
     UNSTABLE = "unstable"
     """It falls: proved by a mechanism."""
     UNDECIDED = "undecided"

@@ -2,7 +2,7 @@
 //!
 //! Forces and a mechanism that obey Coulomb's law at λ show that the scene can move there. Whether
 //! it rests below is another matter: part of it may be wedged, and stand on nothing but a
-//! pre-stress that the loads do not produce, while the mechanism moves something else. So the state
+//! self-stress that the loads do not produce, while the mechanism moves something else. So the state
 //! ([`state`]) is asked under the dead load, on the way, and just below the value, and where it
 //! stays open there just above; where it does not rest, the value is no load factor of the scene,
 //! and the greatest one up to which it rests is sought by halving. Where not everything came out

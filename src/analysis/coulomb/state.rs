@@ -1,11 +1,11 @@
 //! Program C: do the loads themselves produce the forces that hold the scene?
 //!
-//! Admissible forces may need a pre-stress that nobody applied: a block between two posts is held
+//! Admissible forces may need self-stress: a block between two posts is held
 //! by any squeeze, but nothing squeezes it. The state of the scene on slightly compliant contacts
 //! answers it. What balances leaves an acceleration that falls with ε; what does not keeps it, and
 //! is then a motion that obeys Coulomb's law with the forces at hand. *Proved:* a state that moves
 //! is a solution of the law (its natural map is recomputed from the forces). *Computed, not
-//! proved:* that a state at rest is the one the loads produce; rest under a pre-stress and motion
+//! proved:* that a state at rest is the one the loads produce; rest under self-stress and motion
 //! are often both exact solutions. Where one step of the state's equation leads nowhere, blocks are
 //! followed there as it comes about, in many ([`Exact::flowed`]); friction then holds on wherever they
 //! have slid to, and the loads are put on at once.

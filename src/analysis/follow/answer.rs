@@ -140,7 +140,7 @@ pub fn push(
     followable(model)?;
     if model.assembly.live.iter().all(|w| *w == Wrench::zero()) {
         let path = JsonPath::root().key("loads").key("live");
-        return Err(InputError::at(path, "there is no live load on a free block to ask about")
+        return Err(InputError::at(path, "the scene has no live load on a free block")
             .hint("add \"loads\": { \"live\": [ { \"weight\": [1, 0, 0] } ] } to the scene"));
     }
     let drive = Drive::push(&model.assembly, options)?;
@@ -167,11 +167,12 @@ fn begin(
         return Ok(None);
     }
     let error = |text: &str| {
-        let hint = "give a result of `settle` or `push` about this scene and this motion";
+        let hint = "give a result of `settle` or `push` for this scene and this motion";
         InputError::at(JsonPath::root(), format!("the poses to begin at {text}")).hint(hint)
     };
     let assembly = &model.assembly;
-    let poses = read_poses(assembly, saved).map_err(|e| error(&format!("are not its: {e}")))?;
+    let poses = read_poses(assembly, saved)
+        .map_err(|e| error(&format!("are not poses of this scene: {e}")))?;
     let blocks = &assembly.blocks;
     let value = match drive {
         Drive::Push { block, point, toward } => {
@@ -232,7 +233,7 @@ pub(super) fn followable(model: &Model) -> Result<(), InputError> {
                 "the joint between {} and {} has a strength, water or a rolling arm: motions are followed with dry joints only",
                 blocks[f.a].id, blocks[f.b].id
             ),
-            "ask `assess` or `limit` about the first instant",
+            "use `assess` or `limit` for the first instant",
         );
     }
     let members = &model.interfaces.members;
@@ -243,16 +244,14 @@ pub(super) fn followable(model: &Model) -> Result<(), InputError> {
                 m.id,
                 m.kind.word()
             ),
-            "ask `assess` or `limit` about the first instant",
+            "use `assess` or `limit` for the first instant",
         );
     }
     let round = |i: usize| !matches!(blocks[i].solid, Solid::Polyhedron(_));
     if let Some(f) = model.interfaces.list.iter().find(|f| round(f.a) || round(f.b)) {
         let id = &blocks[if round(f.a) { f.a } else { f.b }].id;
         return refuse(
-            format!(
-                "{id} is round: what rolls touches at other points as it moves, which is not followed"
-            ),
+            format!("{id} is round: contacts that roll to other points of a body are not followed"),
             "`voussoir simulate` runs it in time",
         );
     }

@@ -46,7 +46,7 @@ impl Follow {
         match self.drive.is_push() {
             false => End::Reached,
             true => End::Stuck(
-                "it still resists where the control point has gone twice the size of what moves"
+                "it still resists after the control point has moved by twice the size of the moving part"
                     .into(),
             ),
         }
@@ -139,7 +139,7 @@ impl Tracker<'_> {
                 Err(end) => return end,
             }
         }
-        End::Stuck("it changes its mechanism again and again".into())
+        End::Stuck("the mechanism changes too often".into())
     }
 
     /// From one change of the mechanism to the next.
@@ -154,9 +154,9 @@ impl Tracker<'_> {
         let next = program::next(self.carried, &state.poses, &state.closed, self.drive)
             .ok_or_else(|| {
                 if self.falls_there(&state.poses, &state.closed) {
-                    stuck("the scene does not stand there, before anything moves")
+                    stuck("the scene does not stand at this point, before anything moves")
                 } else {
-                    stuck("no mechanism was found: perhaps the blocks are wedged")
+                    stuck("no mechanism was found: the blocks may be wedged")
                 }
             })?;
         let rates = next.rates.clone();
@@ -166,7 +166,7 @@ impl Tracker<'_> {
         }
         if wrong {
             return Err(stuck(
-                "in the mechanism the control point does not move towards where it is to go",
+                "in the mechanism the control point does not move in the given direction",
             ));
         }
         if let Some(k) = next.slides {
@@ -220,12 +220,12 @@ impl Tracker<'_> {
         if self.deepest(&at.place.poses, &closed).is_some_and(|c| c.gap < -tolerance::JOINT_CLOSED)
         {
             return Err(stuck(
-                "in the pose that is in equilibrium next, blocks overlap: perhaps several motions begin there at once",
+                "in the next pose in equilibrium blocks overlap: several motions may begin there at once",
             ));
         }
         let margin = self
             .margin(&at.place.poses, &closed, &linkage.holds)
-            .ok_or_else(|| stuck("no forces were found"))?;
+            .ok_or_else(|| stuck("no balanced forces were found"))?;
         if path.points.is_empty()
             || path.points.last().is_some_and(|p| p.value < value || p.closed != closed)
         {
@@ -236,7 +236,7 @@ impl Tracker<'_> {
             return Err(match at.load_factor.abs() <= tolerance::VANISHES * natural {
                 true => End::Vanishes,
                 false => End::Stuck(format!(
-                    "where contacts open or close the load factor falls to {:.3} at once",
+                    "where contacts open or close the load factor drops suddenly to {:.3}",
                     at.load_factor
                 )),
             });
@@ -271,7 +271,7 @@ impl Tracker<'_> {
                 return Err(how.ends());
             }
             if self.deadline.is_over() {
-                return Err(stuck("the time was over"));
+                return Err(stuck("time limit reached"));
             }
             let stop = how.at.iter().copied().filter(|&v| v > here.0).fold(how.until, f64::min);
             // The next multiple of the step; what rounding left short of one is on it.
@@ -282,7 +282,7 @@ impl Tracker<'_> {
             let Some(at) = self.at(linkage, &here.1.at.place, value) else {
                 step *= 0.25;
                 if step < 1e-9 * how.step {
-                    return Err(stuck("the linkage does not go on"));
+                    return Err(stuck("the linkage cannot move any further"));
                 }
                 continue;
             };
@@ -305,7 +305,7 @@ impl Tracker<'_> {
             if room.is_none() {
                 step *= 0.25;
                 if step < 1e-6 * how.step {
-                    return Err(stuck("no forces were found"));
+                    return Err(stuck("no balanced forces were found"));
                 }
                 continue;
             }
@@ -363,7 +363,7 @@ impl Tracker<'_> {
             path.points.push(self.point(low.0, (linkage, &low.2), closed, &margin));
             return End::Vanishes;
         }
-        End::Stuck("the place where the load factor vanishes was not found".into())
+        End::Stuck("the point where the load factor vanishes was not found".into())
     }
 
     /// The first event between two values, and what comes after it.
@@ -389,7 +389,7 @@ impl Tracker<'_> {
                 width,
                 |v, near| self.at(linkage, &near.place, v).map(|at| (gap(&at), at)),
             )
-            .ok_or_else(|| stuck("the place where a joint closes was not found"))?;
+            .ok_or_else(|| stuck("the point where a joint closes was not found"))?;
             let margin = self.margin(&low.2.place.poses, closed, &linkage.holds);
             high = (low.0, Trial { at: low.2.clone(), margin });
             closing = Some((low, beyond));
@@ -406,10 +406,12 @@ impl Tracker<'_> {
                     Some((room(&margin), Trial { at, margin }))
                 },
             )
-            .ok_or_else(|| stuck("the place where forces cease was not found"))?;
+            .ok_or_else(|| stuck("the point where balanced forces cease to exist was not found"))?;
             return self.changes(how, linkage, (low.0, low.2), (beyond.0, beyond.2), closed, path);
         }
-        let Some((low, beyond)) = closing else { return Err(stuck("an event was lost")) };
+        let Some((low, beyond)) = closing else {
+            return Err(stuck("an event could not be located"));
+        };
         let now = self.with_closed(&low.2.place.poses, closed)?;
         path.events.push(Event { value: low.0, beyond: beyond.0 });
         if let Some(m) = self.margin(&low.2.place.poses, closed, &linkage.holds) {
@@ -503,7 +505,10 @@ impl Tracker<'_> {
             ))
         };
         let most = list.enumerate().filter_map(used).max_by(|a, b| a.0.total_cmp(&b.0));
-        most.map_or_else(|| End::Stuck("forces cease".into()), |m| End::Slides(m.1))
+        most.map_or_else(
+            || End::Stuck("balanced forces cease to exist".into()),
+            |m| End::Slides(m.1),
+        )
     }
 
     /// Proof that it stands just before and falls just after.

@@ -97,10 +97,10 @@ fn step_down(
     let power = |a: &Configuration, b: &Configuration| power(t, &linkage, a, b, lost);
     // Does the motion that opens them gain power right away?
     let Some(near) = close(lost, &from, FIRST * t.size) else {
-        return Landing::Lost("the joint that is about to open cannot".into());
+        return Landing::Lost("the joint that should open cannot open".into());
     };
     let Some(nearer) = close(lost, &near, 0.5 * FIRST * t.size) else {
-        return Landing::Lost("the joint that is about to open cannot".into());
+        return Landing::Lost("the joint that should open cannot open".into());
     };
     if power(&nearer, &near) < 0.0 {
         return Landing::Steady(closed.to_vec());
@@ -134,7 +134,7 @@ fn step_down(
                 Some((overlap(&p), p))
             });
             let Some([low, _]) = ends else {
-                return Landing::Lost("the place where a joint closes was not found".into());
+                return Landing::Lost("the point where a joint closes was not found".into());
             };
             return landed(t, closed, holds, &low.2, value, more);
         }
@@ -192,7 +192,7 @@ fn landed(
         Some(_) => Landing::Nowhere,
         // Nothing balances it there, whatever the room: it goes on.
         None if t.falls_there(&place.poses, &now) => Landing::Nowhere,
-        None => Landing::Lost("no forces were found after a jump".into()),
+        None => Landing::Lost("no balanced forces were found after a jump".into()),
     }
 }
 

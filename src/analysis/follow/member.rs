@@ -92,7 +92,7 @@ impl Tracker<'_> {
             },
         );
         let Some([low, beyond]) = ends else {
-            return Err(stuck("the place where a member yields was not found"));
+            return Err(stuck("the point where a member yields was not found"));
         };
         let Excess { member, bound, .. } = beyond.2.1;
         let at = low.2.0;
@@ -125,7 +125,7 @@ impl Tracker<'_> {
         let slack = bound == 0.0 && !self.drive.is_push();
         let end = slack.then(|| self.falls(linkage, &low, closed)).flatten();
         Err(end.unwrap_or_else(|| {
-            End::Stuck(format!("member {:?} gives way, and the scene with it, suddenly", own.id))
+            End::Stuck(format!("member {:?} yields, and the scene fails suddenly with it", own.id))
         }))
     }
 
@@ -160,7 +160,9 @@ impl Tracker<'_> {
                 _ if own.greatest > 0.0 => now.max(before) > small,
                 _ => now.min(before) < -small,
             };
-            back.then(|| format!("member {:?} is loaded again after it had given way", own.id))
+            back.then(|| {
+                format!("member {:?} is loaded again after it yielded or went slack", own.id)
+            })
         })
     }
 }

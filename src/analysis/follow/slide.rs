@@ -40,7 +40,7 @@ impl Tracker<'_> {
     fn bars_sliding(&self) -> Option<End> {
         let start = self.carried.start;
         if start.interfaces.members.iter().any(|m| !m.is_idle()) {
-            let text = "a joint slides, which is not followed where there are members";
+            let text = "a joint slides, which is not followed in scenes with members";
             return Some(End::Stuck(text.into()));
         }
         (0..start.interfaces.list.len()).find(|&k| !self.carried.may_slide(k)).map(End::Slides)
@@ -59,7 +59,7 @@ impl Tracker<'_> {
         path: &mut Path,
     ) -> Result<End, End> {
         if how.drive.is_push() && !how.dry {
-            return Err(End::Stuck("what is pushed slides".into()));
+            return Err(End::Stuck("the pushed part slides".into()));
         }
         if let Some(end) = self.bars_sliding() {
             return Ok(end);
@@ -101,7 +101,7 @@ impl Tracker<'_> {
                 return Ok(how.ends());
             }
             if self.deadline.is_over() {
-                return Ok(End::Stuck("the time was over".into()));
+                return Ok(End::Stuck("time limit reached".into()));
             }
             let grid = ((here.value / how.step + 1e-9).floor() + 1.0) * how.step;
             let aim = how.until.min(grid);
@@ -279,7 +279,7 @@ impl Tracker<'_> {
             },
         );
         let Some([(_, _, low), _]) = ends else {
-            return End::Stuck("the place where the load factor vanishes was not found".into());
+            return End::Stuck("the point where the load factor vanishes was not found".into());
         };
         path.points.push(self.slid_point(&low));
         End::Vanishes
@@ -290,8 +290,7 @@ impl Tracker<'_> {
         if path.points.last().is_none_or(|p| p.value < here.value) {
             path.points.push(self.slid_point(here));
         }
-        let why =
-            "no equilibrium under dry friction was found beyond, near by: what comes is sudden";
+        let why = "no equilibrium under dry friction was found just beyond: what follows is sudden";
         let stuck = End::Stuck(why.into());
         if self.drive.is_push() {
             return stuck;

@@ -228,7 +228,7 @@ impl<'a> Tracker<'a> {
             // Copies that meet beside each other touch at other points than those that parted.
             if c.apart > 1e-7 {
                 return Err(End::Stuck(
-                    "a joint that had opened all over closes at another place".into(),
+                    "a joint that had opened completely closes at another place".into(),
                 ));
             }
             now[c.interface].push(c.point);
@@ -318,6 +318,6 @@ pub(super) fn meets(
     let known: HashSet<_> = start.interfaces.list.iter().map(pair).collect();
     found.list.iter().map(pair).find(|p| !known.contains(p) && !joined.contains(p)).map(|(a, b)| {
         let id = |i: usize| &start.assembly.blocks[i].id;
-        format!("{} and {}, which were apart at the start, come to touch", id(a), id(b))
+        format!("{} and {}, which were apart at the start, come into contact", id(a), id(b))
     })
 }

@@ -356,7 +356,7 @@ impl Scene<'_> {
             ));
         }
         if more > 0 {
-            answer.left_out.push(format!("the load factors of {more} of {n} independent parts: greater, and they stand at this one"));
+            answer.left_out.push(format!("the load factors of {more} of {n} independent parts: they are greater, and these parts stand at the least one"));
         }
     }
 }

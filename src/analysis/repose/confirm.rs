@@ -29,7 +29,7 @@ impl Confirmed {
         let more = if self.creeping.len() > NAMED { ", …" } else { "" };
         (!self.admissible).then(|| {
             format!(
-                "no forces hold it as it lies after {} rounds of finer steps: {} grains creep ({}{more})",
+                "no admissible forces exist for the heap as it lies, after {} rounds of finer steps: {} grains creep ({}{more})",
                 self.rounds,
                 self.creeping.len(),
                 named.join(", ")

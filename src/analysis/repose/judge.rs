@@ -44,7 +44,7 @@ pub(super) fn refuse(protocol: &Protocol, reading: &Reading, gone: usize) -> Vec
     if cells < FEWEST_CELLS {
         let found = if cells == 0 { "fewer than 3".into() } else { format!("only {cells}") };
         reasons.push(format!(
-            "{found} cells of the surface lie between wall and toe, {FEWEST_CELLS} are needed: take more grains"
+            "{found} cells of the surface lie between wall and toe, {FEWEST_CELLS} are needed: use more grains"
         ));
     }
     let Some(fit) = &reading.mean else { return reasons };
@@ -56,7 +56,7 @@ pub(super) fn refuse(protocol: &Protocol, reading: &Reading, gone: usize) -> Vec
     }
     if fit.fall() < LEAST_FALL * d || fit.slope.angle_deg <= 0.0 {
         reasons.push(format!(
-            "the surface falls by {:.2} d only: it is level but for its grains",
+            "the surface falls by {:.2} d only: it is level apart from its grains",
             fit.fall() / d * fit.slope.angle_deg.signum()
         ));
     }
@@ -86,8 +86,7 @@ fn cut(protocol: &Protocol, fit: &Fit, gone: usize) -> Option<String> {
             let filled = filled(protocol);
             (crest > filled * d).then(|| {
                 format!(
-                    "cut by the wall: at the back wall the line stands at {:.1} d, and the box was \
-                     filled to {filled:.1} d only: take a shorter or narrower box",
+                    "cut by the wall: the line reaches {:.1} d at the back wall, and the box was filled to {filled:.1} d only: use a shorter or narrower box",
                     crest / d
                 )
             })

@@ -119,7 +119,7 @@ impl Seen {
         let unknown = |what: &str, s: &Steady| {
             (s.error > KNOWN * s.mean.abs() || !s.error.is_finite()).then(|| {
                 format!(
-                    "{what} is not known well: {:.3} ± {:.3} (standard error), {} % are asked: take more grains, or a slower rate",
+                    "{what} is too uncertain: {:.3} ± {:.3} (standard error), at most {} % is accepted: use more grains or a slower rate",
                     s.mean,
                     s.error,
                     100.0 * KNOWN

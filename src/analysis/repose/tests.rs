@@ -95,10 +95,10 @@ fn what_is_no_slope_is_refused_with_its_reason() {
         assert!(said.contains(want), "{want}: {said}");
     };
     refused(&p, &[], "fewer than 3 cells");
-    refused(&p, &boxed(&p, |_, _| 5.0), "level but for its grains");
-    refused(&p, &boxed(&p, |x, _| 2.0 + 0.03 * (16.0 - x)), "level but for its grains");
+    refused(&p, &boxed(&p, |_, _| 5.0), "level apart from its grains");
+    refused(&p, &boxed(&p, |x, _| 2.0 + 0.03 * (16.0 - x)), "level apart from its grains");
     // Rising towards the edge.
-    refused(&p, &boxed(&p, |x, _| 2.0 + 0.3 * x), "level but for its grains");
+    refused(&p, &boxed(&p, |x, _| 2.0 + 0.3 * x), "level apart from its grains");
     // Too short: the box of 500 grains.
     let few = Protocol { grains: 500, ..drain() };
     refused(&few, &boxed(&few, |x, _| 1.2 + 0.4 * (10.0 - x)), "cells of the surface");

@@ -17,7 +17,7 @@ use model::interface::Model;
 use scene::Scene;
 
 /// How warnings begin that are about a result's own check.
-pub(super) const REFUSED: &str = "refused by its own check: ";
+pub(super) const REFUSED: &str = "failed its own check: ";
 
 /// The result that follows from evidence that was found and checked this moment. What it rests on
 /// and does not hold is a warning.

@@ -111,9 +111,17 @@ pub(super) fn of(
             Evidence::Shake(Box::new(shaken_answer(model, s)))
         }
         (Question::Repose(_), _) => {
-            return Err(InputError::at(JsonPath::root(), "a packing has a file of its own"));
+            return Err(InputError::at(
+                JsonPath::root(),
+                "a packing is saved in a file of its own",
+            ));
         }
-        _ => return Err(InputError::at(JsonPath::root(), "the answer is none to the question")),
+        _ => {
+            return Err(InputError::at(
+                JsonPath::root(),
+                "the answer does not belong to the question",
+            ));
+        }
     };
     Ok((question, evidence))
 }

@@ -93,9 +93,9 @@ pub fn of_path(
     match refused.filter(|_| known) {
         Some(w) => Err(InputError::at(
             JsonPath::root(),
-            format!("what was kept of the path does not hold: {}", w.text),
+            format!("the saved points of the path do not hold: {}", w.text),
         )
-        .hint("begin another file")),
+        .hint("start a new file")),
         None => Ok(file),
     }
 }

@@ -37,7 +37,7 @@ pub fn packing(
         let refused = rounds.iter().flat_map(|r| &r.tilt.load_factor.findings().fails);
         for text in refused {
             let warning =
-                Finding::new(FindingCode::Numerics, format!("certificate refused: {text}"));
+                Finding::new(FindingCode::Numerics, format!("certificate rejected: {text}"));
             if !warnings.contains(&warning) {
                 warnings.push(warning);
             }

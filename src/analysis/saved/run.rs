@@ -30,7 +30,7 @@ pub(super) fn of(scene: &Scene, model: &Model, answer: &Answered) -> Run {
                 s.dry.iter().for_each(|dry| friction(&mut run, dry));
             }
             if !scene.loads.live.is_empty() {
-                let text = "live loads of the scene: the train stands in their place";
+                let text = "live loads of the scene: the train replaces them";
                 run.left_out.push(text.into());
             }
             m.dead.iter().for_each(|a| dead(&mut run, a));
@@ -85,25 +85,25 @@ pub(super) fn of(scene: &Scene, model: &Model, answer: &Answered) -> Run {
             run.why.no_curve_with_members =
                 k.with_members.as_ref().and_then(|t| t.as_ref().err()).cloned();
             if !scene.loads.live.is_empty() {
-                let text = "live loads of the scene: the earthquake stands in their place";
+                let text = "live loads of the scene: the earthquake replaces them";
                 run.left_out.push(text.into());
             }
             run.warnings.extend(oblique(scene, model).into_iter().map(|k| {
-                let text = format!("loads.dead[{k}] pulls down and sideways: it is taken for no weight. Where one is in it, make two loads of it, the weight straight down, or say \"massless\": true");
+                let text = format!("loads.dead[{k}] pulls down and sideways: it counts as a force without mass. If it contains a weight, split it in two, with the weight straight down; if not, set \"massless\": true");
                 Finding::new(FindingCode::Loads, text)
             }));
             k.dead.iter().for_each(|a| dead(&mut run, a));
         }
         Answered::Stages(s) => {
             if model.interfaces.left_out.is_some() {
-                let text = "contacts between blocks that overlap or nearly touch are left out at every stage: no stage is asked again with them closed, `assess` does that for the whole scene";
+                let text = "contacts between blocks that overlap or nearly touch are left out at every stage: no stage is computed again with them closed; `assess` does that for the whole scene";
                 run.warnings.push(Finding::new(FindingCode::ContactIgnored, text.to_string()));
             }
             s.stages.iter().for_each(|s| stage(&mut run, s));
         }
         Answered::Without(w) => {
             if model.interfaces.left_out.is_some() {
-                let text = "contacts between blocks that overlap or nearly touch are left out: nothing is asked again with them closed, `assess` does that for the whole scene";
+                let text = "contacts between blocks that overlap or nearly touch are left out: nothing is computed again with them closed; `assess` does that for the whole scene";
                 run.warnings.push(Finding::new(FindingCode::ContactIgnored, text.to_string()));
             }
             for l in &w.each {
@@ -150,7 +150,7 @@ fn warn<T>(run: &mut Run, proved: &Proved<T>) {
 
 fn refused(run: &mut Run, fails: &[String]) {
     for f in fails {
-        let finding = Finding::new(FindingCode::Numerics, format!("certificate refused: {f}"));
+        let finding = Finding::new(FindingCode::Numerics, format!("certificate rejected: {f}"));
         if !run.warnings.contains(&finding) {
             run.warnings.push(finding);
         }
@@ -198,7 +198,7 @@ fn followed(run: &mut Run, p: &Followed) {
             Some("it falls, but that could not be proved".into())
         }
         End::Reached | End::Vanishes if !whole => {
-            Some("a point on the way could not be proved".into())
+            Some("a point of the path could not be proved".into())
         }
         _ => None,
     };

@@ -1,4 +1,4 @@
-//! The state of joints that yield: under the dead load, and along the live load.
+//! The state of elastic joints: under the dead load, and along the live load.
 //!
 //! The dead load is one step from the state in which nothing has moved. Along the live load the
 //! load factor grows in steps that end where a joint opens, parts, slips, slides or sticks again
@@ -104,7 +104,7 @@ const STEPS_A_JOINT: usize = 500;
 /// dead load weigh the same.
 const WITHOUT_END: f64 = 10.0;
 
-/// Answers `state`: as asked, or with joints that yield at their corners where over their area nothing
+/// Answers `state`: as asked, or with elastic joints at their corners where over their area nothing
 /// is found, or the search is given up.
 pub(super) fn state(
     options: &StateOptions,
@@ -131,8 +131,8 @@ fn stated(
     let live = model.assembly.live.iter().any(|w| *w != Wrench::zero());
     if !live && (options.control.is_some() || !options.at.is_empty()) {
         let path = JsonPath::root().key("loads").key("live");
-        return Err(InputError::at(path, "there is no live load on a free block to follow")
-            .hint("add one, or leave out the control point"));
+        return Err(InputError::at(path, "the scene has no live load on a free block")
+            .hint("add one, or leave out the control point and the load factors"));
     }
     let point = options.control.as_ref().map(|c| control_of(model, c)).transpose()?;
     let live = live && !options.dead_only;

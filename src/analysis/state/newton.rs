@@ -1,4 +1,4 @@
-//! Newton's method for the displacements at which joints that yield balance the loads.
+//! Newton's method for the displacements at which elastic joints balance the loads.
 //!
 //! The unknowns are six displacements a free block, the equations their balance; the tangent is
 //! that of the laws themselves, blocks of 6 × 6, unsymmetric where something slides. Where the scene

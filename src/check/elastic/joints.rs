@@ -84,9 +84,9 @@ pub enum JointKind {
 }
 
 /// What a scene needs for the question, in words for errors.
-const STIFFNESS: &str = "add \"normal_stiffness\" (Pa/m; 10 N/mm³ is 1e10) to joints.default, or to an exception for this joint";
+const STIFFNESS: &str = "add \"normal_stiffness\" (Pa/m; 10 N/mm³ is 1e10) to joints.default, or to an override for this joint";
 const MODULI: &str =
-    "add \"young\" (Pa) and \"poisson\" to its material: spheres yield by Hertz's law";
+    "add \"young\" (Pa) and \"poisson\" to its material: spheres deform by Hertz's law";
 
 /// Refuses models that the question has no answer for.
 ///
@@ -106,7 +106,7 @@ pub fn needs(model: &Model) -> Result<(), InputError> {
         if let Some((_, word)) = unknown.iter().find(|u| u.0) {
             let (a, b) = names(&model.assembly, face);
             let text = format!(
-                "the joint between {a} and {b} has a {word}: the state with stiffness knows dry joints only"
+                "the joint between {a} and {b} has a {word}: the state with elastic joints handles dry joints only"
             );
             return Err(InputError::at(root.key("joints"), text)
                 .hint(format!("leave {word} out, or ask `assess`")));
@@ -212,13 +212,13 @@ impl Told {
         let mut texts = Vec::new();
         if self.shear > 0 {
             texts.push(format!(
-                "{} joints have no shear_stiffness: that of their normal_stiffness is taken",
+                "{} joints have no shear_stiffness: their normal_stiffness is used",
                 self.shear
             ));
         }
         if self.edges > 0 {
             texts.push(format!(
-                "{} contacts at edges or points have no area: each of their points yields as the average corner of the other joints of its blocks",
+                "{} contacts at edges or points have no area: each of their points gets the mean stiffness of a corner of the other joints of its blocks",
                 self.edges
             ));
         }
@@ -229,7 +229,7 @@ impl Told {
                 n => format!(" and {n} more"),
             };
             texts.push(format!(
-                "block {first:?}{more} touches a sphere and has no young and poisson: it is taken as rigid there"
+                "block {first:?}{more} without young and poisson: rigid in contact with spheres"
             ));
         }
         texts.into_iter().map(|t| Finding::new(FindingCode::Assumed, t)).collect()
@@ -272,10 +272,10 @@ fn joint(
         let Some(share) = others.share([face.a, face.b]) else {
             let (a, b) = names(assembly, face);
             let text = format!(
-                "the contact between {a} and {b} has no area, and no other joint of theirs has any: a stiffness in Pa/m means nothing there"
+                "the contact between {a} and {b} has no area, nor has any other joint of theirs: a stiffness in Pa/m cannot be applied"
             );
             return Err(InputError::at(JsonPath::root().key("joints"), text)
-                .hint("cut the edge off, so that it is a face, or ask `assess`"));
+                .hint("cut off the edge to make a face, or ask `assess`"));
         };
         Domain::Points(corners.into_iter().map(|p| (p, share)).collect())
     } else {

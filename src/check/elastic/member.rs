@@ -64,10 +64,10 @@ impl Line {
         let (id, kind) = (&member.id, member.kind.word());
         if !matches!(member.action, Action::Line(_)) {
             let text = format!(
-                "member {id:?} is a {kind}: of members the state with stiffness knows ties, struts, bars and tendons"
+                "member {id:?} is a {kind}: the state with elastic joints handles ties, struts, bars and tendons only"
             );
             return Err(InputError::at(member.path.clone(), text)
-                .hint("leave it out, put a strut in its place, or ask `assess`"));
+                .hint("leave it out, replace it by a strut, or ask `assess`"));
         }
         let Some(stiffness) = member.stiffness else {
             let text = format!("{kind} {id:?} has no stiffness");

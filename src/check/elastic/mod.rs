@@ -1,4 +1,4 @@
-//! Joints that yield: what blocks and joints of known stiffness do to each other at given
+//! Elastic joints: what blocks and joints of known stiffness do to each other at given
 //! displacements.
 //!
 //! *Law.* Signorini's and Coulomb's conditions with the compliance of the joint: with `ḡ = g + p /

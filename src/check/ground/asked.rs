@@ -50,7 +50,7 @@ impl ShakeOptions {
     pub fn check(&self) -> Result<(), InputError> {
         let refuse = |key: &str, text: &str| Err(InputError::at(JsonPath::root().key(key), text));
         if !self.toward.iter().all(|v| v.is_finite()) || self.toward == [0.0; 3] {
-            return refuse("toward", "the direction has no length");
+            return refuse("toward", "the direction must not be zero");
         }
         if !self.ground.moves() {
             return refuse("ground", "nothing moves: give a pulse or a record");
@@ -74,9 +74,9 @@ impl ShakeOptions {
         if across.norm() <= tolerance::ALONG {
             return Err(InputError::at(
                 JsonPath::root().key("toward"),
-                "the direction of the ground is along gravity",
+                "the direction of the ground motion is parallel to gravity",
             )
-            .hint("give one across it, such as 1,0"));
+            .hint("give a direction across gravity, such as 1,0"));
         }
         let across = across.normalize();
         Ok([across, up.cross(&across), up])

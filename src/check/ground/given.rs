@@ -74,7 +74,7 @@ impl Wave {
         match (self.duration, self.frequency) {
             (Some(duration), None) => Ok(duration),
             (None, Some(frequency)) => Ok(part / frequency),
-            _ => Err("a sine has one of \"duration\" (s) and \"frequency\" (Hz)".into()),
+            _ => Err("a sine needs either \"duration\" (s) or \"frequency\" (Hz)".into()),
         }
     }
 }
@@ -103,12 +103,12 @@ impl Formula {
             | Pulse::HalfSine { acceleration, duration }
             | Pulse::Sine { acceleration, duration } => {
                 if !(duration > 0.0 && duration.is_finite() && acceleration.is_finite()) {
-                    return Err("a pulse is finite and lasts longer than 0 s".into());
+                    return Err("a pulse must be finite and last longer than 0 s".into());
                 }
             }
             Pulse::Jump { velocity } | Pulse::DoubleJump { velocity } => {
                 if !velocity.is_finite() {
-                    return Err("a jump of the velocity is finite".into());
+                    return Err("a velocity jump must be finite".into());
                 }
             }
         }
@@ -196,7 +196,7 @@ impl Series {
         let even = self.components.iter().all(|c| c.len() == count);
         if !(1..=3).contains(&self.components.len()) || count < 2 || !even {
             return Err(format!(
-                "{}: a record has one to three components with as many samples each, two at least",
+                "{}: a record needs one to three components with the same number of samples, at least two",
                 self.name
             ));
         }
@@ -247,7 +247,7 @@ impl Given {
             (None, Some(Recorded::Read(series))) => series.motion().map_err(|e| at("record", e)),
             (None, Some(Recorded::Named(name))) => {
                 Err(at("record", format!("the record {name} was not read"))
-                    .hint("give the record itself: only plans name files"))
+                    .hint("give the samples themselves: only sweep plans may name files"))
             }
         }
     }

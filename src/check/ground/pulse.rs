@@ -84,7 +84,7 @@ impl std::str::FromStr for Pulse {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let wrong = || format!("{text:?} is no pulse; hint: {PULSES}");
+        let wrong = || format!("{text:?} is not a pulse; hint: {PULSES}");
         let (kind, numbers) = text.split_once(':').ok_or_else(wrong)?;
         let list = numbers
             .split(',')
@@ -100,7 +100,7 @@ impl std::str::FromStr for Pulse {
             _ => return Err(wrong()),
         };
         if list[1] <= 0.0 {
-            return Err(format!("{text:?}: a pulse lasts longer than 0 s; hint: {PULSES}"));
+            return Err(format!("{text:?}: a pulse must last longer than 0 s; hint: {PULSES}"));
         }
         Ok(pulse)
     }

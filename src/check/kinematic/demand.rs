@@ -102,7 +102,7 @@ pub fn demand(site: &Site, a0: f64, curves: &[(&str, States)], gravity: f64) -> 
         left_out.push("SLC: the site has no spectrum for it".into());
     }
     if site.building.as_ref().is_some_and(|b| b.amplification.is_none()) {
-        left_out.push("the floor spectrum beyond period 0: C7.2.3 amplifies by 1.1 ξ^-0.5 and gives ξ in percent beside it, with which that is below 1; as a fraction it is above 4. Give \"amplification\" in the building of the site, from the text that applies".into());
+        left_out.push("the floor spectrum beyond period 0: the factor 1.1 ξ^-0.5 of C7.2.3 is below 1 with ξ in percent, as the text has it, and above 4 with ξ as a fraction. Give \"amplification\" in the building of the site, from the code that applies".into());
     }
     let least = |list: &[Check]| list.iter().map(|c| c.ratio).fold(f64::INFINITY, f64::min);
     let (first, rest) = checks.split_at(linear_checks);

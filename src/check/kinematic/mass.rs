@@ -62,7 +62,10 @@ pub fn quake(scene: &Scene, model: &Model, toward: Vector3<f64>) -> Result<Quake
     if share.is_nan() || share <= tolerance::ALONG {
         return Err(InputError::at(
             JsonPath::root(),
-            format!("an earthquake towards {:?} is along gravity", toward.as_slice()),
+            format!(
+                "the direction {:?} of the earthquake is parallel to gravity",
+                toward.as_slice()
+            ),
         )
         .hint("give a direction across gravity, such as 1,0"));
     }

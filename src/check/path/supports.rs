@@ -36,7 +36,7 @@ impl Drive {
         let point = Vector3::from(options.control.point);
         if (point - blocks[block].centroid).norm() > blocks[block].size {
             let c: [f64; 3] = blocks[block].centroid.into();
-            return Err(error(format!("the control point is no point of {id}"))
+            return Err(error(format!("the control point does not lie on {id}"))
                 .hint(format!("its centre of mass is at {}", base::number::point(c))));
         }
         Ok(Self::Push { block, point, toward: unit(options.toward.into()) })
@@ -63,7 +63,7 @@ fn moves(assembly: &Assembly, asked: &[SupportMove]) -> Result<Vec<Move>, InputE
         };
         for (support, outwards) in named.into_iter().zip(outwards) {
             if moves.iter().any(|other| other.support == support) {
-                let text = format!("{} is told to move twice", blocks[support].id);
+                let text = format!("{}: two movements are given", blocks[support].id);
                 return Err(error(text).hint("name each support once, by its id or by a pattern"));
             }
             moves.push(Move {
@@ -84,9 +84,9 @@ fn outwards(
 ) -> Result<Vec<Vector3<f64>>, InputError> {
     let blocks = &assembly.blocks;
     if let [only] = named {
-        return Err(error(format!("{}: one support alone has no outwards", blocks[*only].id))
+        return Err(error(format!("{}: `out` is undefined for a single support", blocks[*only].id))
             .hint(format!(
-                "name several by a pattern, such as \"{name}*\", or give the way as three numbers"
+                "name several by a pattern, such as \"{name}*\", or give the displacement as three numbers"
             )));
     }
     let up = -assembly.gravity.try_normalize(0.0).unwrap_or(-Vector3::z());
@@ -100,8 +100,10 @@ fn outwards(
             return Ok(flat.normalize());
         }
         let id = &blocks[i].id;
-        Err(error(format!("{id} is in the middle of the supports that move outwards ({name})"))
-            .hint("name those around it alone, or give their ways as three numbers"))
+        Err(error(format!(
+            "{id}: `out` is undefined at the centre of the supports that move outwards ({name})"
+        ))
+        .hint("name only the supports around it, or give the displacements as three numbers"))
     };
     named.iter().map(direction).collect()
 }

@@ -149,7 +149,7 @@ pub enum FactorStatus {
     /// asked.
     AtLeast,
     /// Under the dead load alone it does not come to rest: there is no value with dry friction. It
-    /// falls where the bound is below zero, and needs a pre-stress otherwise.
+    /// falls where the bound is below zero, and needs self-stress otherwise.
     NotAtRest,
     /// It did not come out.
     Undecided,
@@ -392,7 +392,7 @@ pub fn holds(question: &Question, answer: &Answer) -> Option<bool> {
         Question::Tilt(_) | Question::Repose(_) => lambda.atan().to_degrees(),
         _ => lambda,
     };
-    // A scene that needs a pre-stress already without its live load, or falls, is no yes.
+    // A scene that needs self-stress already without its live load, or falls, is no yes.
     let negative = said.associative.found().is_some_and(|(.., upper)| upper < 0.0);
     let level = answer.verdict();
     let dead = matches!(level, Some(Verdict::Conditional | Verdict::Unstable)) || negative;

@@ -31,7 +31,7 @@ pub struct Certificate {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub members: Vec<MemberForce>,
     /// Unbounded: forces at a load factor at which the scene stands. Conditional: the forces
-    /// without the pre-stress.
+    /// without the self-stress.
     pub base: Option<Vec<ContactForces>>,
     /// The same for members.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -66,7 +66,7 @@ pub struct Proven {
     pub claim: Option<Claim>,
     /// The forces.
     pub forces: Forces,
-    /// Those without the pre-stress, or at another load factor.
+    /// Those without the self-stress, or at another load factor.
     pub base: Option<Forces>,
     /// The rates of all blocks.
     pub rates: Vec<Rate>,
@@ -110,7 +110,7 @@ impl Certificate {
         checked.as_ref().map(|f| f.holds.clone()).unwrap_or_default()
     }
 
-    /// The forces that it holds, of contacts and members, and those without the pre-stress or at
+    /// The forces that it holds, of contacts and members, and those without the self-stress or at
     /// another load factor.
     ///
     /// # Errors
@@ -123,7 +123,7 @@ impl Certificate {
         };
         let base = self.base.as_ref().map(|base| read(base, &self.base_members)).transpose()?;
         if base.is_none() && !self.base_members.is_empty() {
-            return Err("forces of members stand without those of the contacts".into());
+            return Err("member forces are given without contact forces".into());
         }
         Ok((read(&self.forces, &self.members)?, base))
     }

@@ -179,7 +179,7 @@ pub(super) fn derive(
     let values = if e.scan.len() <= MOST { o.values(whole) } else { Vec::new() };
     if e.scan.len() > values.len() || !e.scan.iter().zip(&values).all(|(s, v)| near(o, s.value, *v))
     {
-        return Err("the scan is not that of the question".into());
+        return Err("the scan does not match the question".into());
     }
     let c = CriticalResult {
         vary: o.vary.clone(),
@@ -198,7 +198,7 @@ pub(super) fn derive(
     require(
         &mut f,
         found.iter().all(|v| low - slack <= v.lower && v.upper <= high + slack),
-        format!("{} flips between {low} and {high} have a proof on both sides", found.len()),
+        format!("{} flips between {low} and {high} are proved on both sides", found.len()),
     );
     scanned(&mut f, o, &c, &values);
     d.part("answer", f);
@@ -246,7 +246,7 @@ fn scan_again(d: &mut Derivation, o: &CriticalOptions, c: &CriticalResult) {
         }
     }
     let text = format!(
-        "{} values asked again (computed, not proved), {otherwise} of them otherwise than said",
+        "{} values computed again (not proved), {otherwise} of them with another verdict",
         rest.len()
     );
     require(&mut f, otherwise == 0, text);
@@ -270,7 +270,7 @@ fn is_so(here: &Result<(Verdict, f64), base::error::InputError>, said: &ScanPoin
 /// The scan is the way there, computed and not proved; it agrees with what is proved.
 fn scanned(f: &mut Findings, o: &CriticalOptions, c: &CriticalResult, values: &[f64]) {
     let proved = |v: f64| c.sides().filter(move |s| s.value == v).filter_map(Side::verdict);
-    // Whether a pre-stress is needed may have stayed open on one of the two occasions.
+    // Whether self-stress is needed may have stayed open on one of the two occasions.
     let falls = |v: Verdict| v == Verdict::Unstable;
     let agrees = c.scan.iter().all(|s| {
         proved(s.value).all(|v| {
@@ -280,7 +280,7 @@ fn scanned(f: &mut Findings, o: &CriticalOptions, c: &CriticalResult, values: &[
     require(
         f,
         agrees,
-        format!("the scan agrees with what is proved: {} values, computed", c.scan.len()),
+        format!("the scan agrees with the proofs ({} values, computed)", c.scan.len()),
     );
     let is = |s: &Side, v: Option<&f64>| v.is_some_and(|v| near(o, s.value, *v));
     let ends = match &c.ends[..] {

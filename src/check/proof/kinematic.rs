@@ -195,13 +195,13 @@ pub(super) fn derive(
     let level = dead.as_ref().and_then(|d| d.answer.verdict());
     let asked = directions(model.assembly.gravity, &o.toward, o.all);
     if e.directions.len() > asked.len() {
-        return Err("there is evidence for more directions than were asked for".into());
+        return Err("the evidence has more directions than the question".into());
     }
     let mut all = towards(d, o, (e, &asked), level)?;
     all.sort_by(|a, b| governing(&a.direction).total_cmp(&governing(&b.direction)));
     let several = all.len() > 1;
     let mut rest = all.into_iter();
-    let mut worst = rest.next().ok_or("there are no directions")?;
+    let mut worst = rest.next().ok_or("no direction is given")?;
     let [curve, tied] = curves(d, o, e, &mut worst)?;
     if let Answer::Kinematic(answer) = &worst.direction.answer {
         d.part("numbers", told_numbers(&answer.numbers));
@@ -324,10 +324,10 @@ fn told_numbers(n: &Numbers) -> Findings {
             "recomputed from the mechanism: e* = {:.9}, M* = {:.6e} kg, a0 = {a0:.9} m/s²",
             p.e_star, p.mass
         ),
-        _ => "recomputed: there is no mechanism to count masses of".into(),
+        _ => "recomputed: without a mechanism there is no participating mass".into(),
     });
     f.holds.extend(n.capacity.map(|c| format!("recomputed from the curve: d0 = {:.9} m", c.d0)));
-    let ratio = |d: &Demand| format!("recomputed from the site: {:.6} of what it demands", d.ratio);
+    let ratio = |d: &Demand| format!("recomputed from the site: {:.6} of the demand", d.ratio);
     f.holds.extend(n.demand.as_ref().map(ratio));
     f
 }
@@ -354,7 +354,7 @@ fn given<'a>(
 fn drive(quake: &Quake, c: &Control) -> Result<Drive, String> {
     let assembly = &quake.model.assembly;
     let block = assembly.find(&c.block).filter(|&i| !assembly.blocks[i].support);
-    let block = block.ok_or(format!("the scene has no such block to move: {}", c.block))?;
+    let block = block.ok_or(format!("the scene has no free block {}", c.block))?;
     Ok(Drive::Push { block, point: c.point.into(), toward: quake.toward })
 }
 

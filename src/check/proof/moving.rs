@@ -85,7 +85,7 @@ impl Answer {
 /// missing is refused.
 pub(super) fn derive(d: &mut Derivation, e: &MovingEvidence) -> Result<Told, String> {
     let (Some(train), Some(way)) = (&d.scene.train, Way::of(d.scene, d.model)) else {
-        return Err("the scene has no train to drive over it".into());
+        return Err("the scene has no train".into());
     };
     let law = d.question.law();
     let dead = d.dead(d.model, e.dead.as_ref());
@@ -98,7 +98,7 @@ pub(super) fn derive(d: &mut Derivation, e: &MovingEvidence) -> Result<Told, Str
     require(
         &mut f,
         e.positions.iter().all(|p| inside(at(p))),
-        "every position lies on the way of the train",
+        "every position lies on the path of the train",
     );
     let near = |a: Position, b: &Position| {
         a.travel == b.travel && (a.x - b.x).abs() <= tolerance::SAVED * train.step
@@ -114,7 +114,7 @@ pub(super) fn derive(d: &mut Derivation, e: &MovingEvidence) -> Result<Told, Str
         missing.is_empty(),
         match missing.first() {
             None => {
-                format!("no step of {} is missing at which an axle stands on a span", steps.len())
+                format!("of {} steps, none with an axle on a span is missing", steps.len())
             }
             Some(p) => format!(
                 "{} steps are missing, the first at x = {} {}",
@@ -130,7 +130,7 @@ pub(super) fn derive(d: &mut Derivation, e: &MovingEvidence) -> Result<Told, Str
         let title = format!("train at x = {} {}", p.x, p.travel.words());
         let under = match way.at(at(p)) {
             Ok(Some(under)) => under,
-            Ok(None) => return Err(format!("{title}: there no axle stands on a span")),
+            Ok(None) => return Err(format!("{title}: no axle stands on a span")),
             Err(e) => return Err(format!("{title}: {e}")),
         };
         let model: At = &|_| Ok(under.model.clone());
@@ -151,7 +151,7 @@ pub(super) fn derive(d: &mut Derivation, e: &MovingEvidence) -> Result<Told, Str
         };
         all.push((direction, factor.proven, under.model));
     }
-    let least = least(all.iter().map(|d| &d.0.answer)).ok_or("there are no positions")?;
+    let least = least(all.iter().map(|d| &d.0.answer)).ok_or("no position is given")?;
     let (direction, proven, under) = &all[least];
     let worst = direction.answer.moving();
     let bears = |(d, ..): &(Direction, _, _)| {
@@ -160,7 +160,9 @@ pub(super) fn derive(d: &mut Derivation, e: &MovingEvidence) -> Result<Told, Str
     if !all.iter().all(bears) {
         d.part(
             "answer",
-            failure("a position without a value of its own bears less than the least one"),
+            failure(
+                "a position without a load factor of its own may carry less than the governing one",
+            ),
         );
     }
     let mut told = Told::new(d.model, direction.answer.clone(), &direction.certificate);

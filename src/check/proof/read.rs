@@ -49,7 +49,7 @@ pub fn read_str(name: impl Into<String>, text: impl Into<String>) -> Result<Save
                 file: Some(source.name.clone()),
                 position: Some((e.line(), e.column())),
                 ..InputError::at(JsonPath::root(), format!("{place}{message}"))
-                    .hint("save the result anew with --save")
+                    .hint("save the result again with --save")
             }
         })
 }

@@ -176,7 +176,7 @@ pub(super) fn derive(
             require(
                 &mut f,
                 bound.status == Outcome::Found,
-                "towards its direction there is a mechanism",
+                "there is a mechanism towards the direction",
             );
             answer.towards.load_factor = bound;
             first = Some((own, proven));
@@ -202,7 +202,7 @@ fn part(d: &Derivation, said: &RockingAnswer, toward: Vector3<f64>) -> Result<Mo
     let model = d.model;
     let own = quake(d.scene, model, toward).map_err(|e| e.to_string())?;
     if (own.toward - toward).norm() > tolerance::ALONG {
-        return Err("the direction is no unit one across gravity".into());
+        return Err("the direction is not a unit vector across gravity".into());
     }
     if let Some(id) = said.blocks.iter().find(|id| model.assembly.find(id).is_none()) {
         return Err(format!("the scene has no block {id}"));
@@ -219,18 +219,18 @@ fn history(d: &Derivation, said: &RockingAnswer) -> Findings {
         return f;
     }
     let text = format!(
-        "the history of {} impacts comes out again (computed, not proved)",
+        "the history with {} impacts is the same when computed again (computed, not proved)",
         said.impacts.len()
     );
     // Proved, each from evidence of its own.
     let plain = |a: &RockingAnswer| RockingAnswer { proof: None, ..a.clone() };
     match d.again.rocking(&said.asked, d.scene, d.model) {
         None => f.unchecked.push(text),
-        Some(Err(e)) => f.fails.push(format!("the scene has no such history: {e}")),
+        Some(Err(e)) => f.fails.push(format!("the history cannot be computed for this scene: {e}")),
         Some(Ok(here)) => match compare::first_difference(&plain(said), &plain(&here)) {
             None => f.holds.push(text),
             Some(place) => {
-                f.fails.push(format!("run again, the answer says otherwise at {place}"));
+                f.fails.push(format!("computed again, the answer differs at {place}"));
             }
         },
     }

@@ -138,7 +138,7 @@ fn blocks(f: &mut Findings, said: &ShakenAnswer, model: &Model) {
     let blocks = &model.assembly.blocks;
     let named =
         model.assembly.free().map(|i| &blocks[i].id).eq(said.blocks.iter().map(|b| &b.block));
-    require(f, named, format!("all {} free blocks are told of", said.blocks.len()));
+    require(f, named, format!("all {} free blocks are listed", said.blocks.len()));
     let whole = |b: &ShakenBlock| {
         let numbers = [
             b.thickness,
@@ -152,10 +152,14 @@ fn blocks(f: &mut Findings, said: &ShakenAnswer, model: &Model) {
             && b.at <= said.time * (1.0 + SAVED)
             && b.greatest_turn_deg <= 180.0
     };
-    require(f, said.blocks.iter().all(whole), "no block went farther at the end than ever");
+    require(
+        f,
+        said.blocks.iter().all(whole),
+        "the displacements are consistent: none is greater at the end than its maximum",
+    );
     let time = said.steps as f64 * said.step;
     let same = said.step > 0.0 && (time - said.time).abs() <= SAVED * said.time;
-    require(f, same, format!("{} steps take the time said", said.steps));
+    require(f, same, format!("{} steps add up to the time given", said.steps));
 }
 
 /// What became of it follows from what the blocks did.
@@ -180,7 +184,7 @@ fn fate(f: &mut Findings, said: &ShakenAnswer) {
         }
         _ => false,
     };
-    require(f, follows, "what became of it follows from how far the blocks went and turned");
+    require(f, follows, "the outcome follows from the displacements and rotations of the blocks");
 }
 
 /// The engine does the same again. Its arithmetic is repeated bit by bit on one machine; another one
@@ -190,15 +194,18 @@ fn repeated(d: &Derivation, f: &mut Findings, said: &ShakenAnswer) {
     if !d.asks_again() || !f.fails.is_empty() {
         return;
     }
-    let text = format!("{} steps of the engine come out again (computed, not proved)", said.steps);
+    let text = format!(
+        "{} steps of the simulation are the same when run again (computed, not proved)",
+        said.steps
+    );
     let dear = said.steps.saturating_mul(said.blocks.len()) > AFFORDED;
     match (!dear).then(|| d.again.shaken(said, d.scene, d.model)).flatten() {
         None => f.unchecked.push(text),
-        Some(Err(e)) => f.fails.push(format!("the scene has no such history: {e}")),
+        Some(Err(e)) => f.fails.push(format!("the history cannot be computed for this scene: {e}")),
         Some(Ok(here)) => match compare::first_difference(said, &here) {
             None => f.holds.push(text),
             Some(place) => f.unchecked.push(format!(
-                "run again here the engine says otherwise at {place} (it {}): not confirmed, as another machine or build may come to another history",
+                "run again here, the simulation differs at {place} (it {}): not confirmed; another machine or build may give another history",
                 words(&here)
             )),
         },

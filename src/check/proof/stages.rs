@@ -38,7 +38,7 @@ use std::sync::Arc;
 pub struct StagesAnswer {
     /// The verdict of the worst stage.
     pub verdict: Verdict,
-    /// The worst stage: the first that falls, or else stands only with a pre-stress, or is
+    /// The worst stage: the first that falls, or else stands only with self-stress, or is
     /// undecided, or else the one of the least margin.
     pub worst: String,
     /// How many stages there are.
@@ -294,7 +294,7 @@ pub(super) fn derive(
 ) -> Result<Told, String> {
     let (scene, model) = (d.scene, d.model);
     if o.has_order() != e.order.is_some() {
-        return Err("there is evidence for another order than was asked for".into());
+        return Err("the evidence is for another order than the question".into());
     }
     let asked = match &e.order {
         Some(order) => AskedStages::InOrder(&order.placed),
@@ -305,7 +305,7 @@ pub(super) fn derive(
     require(
         &mut f,
         e.stages.len() <= here.len(),
-        format!("the stages are those of the scene, {} of them", here.len()),
+        format!("the stages are those of the scene ({} in all)", here.len()),
     );
     if let Some(order) = &e.order {
         complete(d, &mut f, o, order);
@@ -337,8 +337,12 @@ pub(super) fn derive(
 fn complete(d: &Derivation, f: &mut Findings, o: &StagesOptions, order: &Order) {
     let free = d.model.assembly.free().count();
     let all = order.placed.is_empty() || order.placed.len() == free;
-    require(f, all, format!("every free block is placed, {free} of them"));
-    require(f, order.given != o.order.is_empty(), "the order is given where it is");
+    require(f, all, format!("all {free} free blocks are placed"));
+    require(
+        f,
+        order.given != o.order.is_empty(),
+        "the order is recorded as given where the question gives it, and only there",
+    );
     if order.given && !order.placed.is_empty() {
         let path = base::error::JsonPath::root();
         let asked = assembly::named_blocks(&o.order, d.scene, &d.model.assembly, &path);
@@ -351,9 +355,9 @@ fn complete(d: &Derivation, f: &mut Findings, o: &StagesOptions, order: &Order) 
     if least == 0 || !f.fails.is_empty() || !d.asks_again() {
         return;
     }
-    let text = format!("with fewer than {least} held at a time no order was found");
+    let text = format!("no order was found with fewer than {least} blocks held at a time");
     match d.again.least_held(order, d.scene, d.model) {
-        Some(Ok(here)) => require(f, least <= here, format!("{text} (sought again, not proved)")),
+        Some(Ok(here)) => require(f, least <= here, format!("{text} (searched again, not proved)")),
         Some(Err(e)) => f.fails.push(e.to_string()),
         None => f.unchecked.push(text),
     }
@@ -381,7 +385,7 @@ fn stage(
     let margin =
         (asks_margin && no_margin.is_none()).then(|| margin(d, o, name, model, e)).flatten();
     if margin.is_none() && (e.limit.is_some() || !e.tilts.is_empty()) {
-        d.part(name.clone(), failure("there is evidence for a margin that was not asked for"));
+        d.part(name.clone(), failure("the evidence has a margin that was not asked for"));
     }
     let reactions = proven.filter(|_| stands).map_or_else(Vec::new, |p| reactions_of(model, &p));
     let least_forces = if stands { d.held_forces(o, (name, &held), model, e) } else { Vec::new() };
@@ -445,7 +449,7 @@ impl Derivation<'_> {
                 .iter()
                 .all(|id| e.least_forces.iter().any(|h| h.block == ***id && is_down(h, model)));
         if !complete {
-            self.part(name, failure("the least force on something that it holds is missing"));
+            self.part(name, failure("the least force on a held block is missing"));
         }
         let mut list = Vec::new();
         for own in &e.least_forces {
@@ -507,7 +511,7 @@ fn least(
         model.assembly.find(&e.block).filter(|&i| fits && model.assembly.blocks[i].support);
     let support = support.ok_or(format!("the stage does not hold {}", e.block))?;
     let along = (Vector3::from(e.direction).norm() - 1.0).abs() <= tolerance::ALONG;
-    require(&mut f, along, "its direction is a unit one");
+    require(&mut f, along, "its direction is a unit vector");
     let none = |status| Bound { status, value: None, lower: None, upper: None };
     let own = ThrustAt { support, direction: e.direction };
     let claim = e.certificate.prove(&mut f, model, known).and_then(|p| p.claim);

@@ -33,7 +33,7 @@ use std::{collections::HashMap, sync::Arc};
 /// pass. Less: rounding of displacements in tall scenes is refused.
 const HOLDS: f64 = 1e-8;
 
-/// The answer about joints that yield.
+/// The answer about elastic joints.
 #[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct StateAnswer {
@@ -361,7 +361,7 @@ impl StateAnswer {
 }
 
 impl Answer {
-    /// What it says of joints that yield.
+    /// What it says of elastic joints.
     pub fn state(&self) -> Option<&StateAnswer> {
         match self {
             Self::State(a) => Some(a),
@@ -393,7 +393,7 @@ pub(super) fn derive(
         return Ok(told);
     }
     if e.standing.is_some() {
-        return Err("beside a state stands a verdict that was not asked for".into());
+        return Err("the evidence has a verdict beside the state that was not asked for".into());
     }
     let joints = Joints::new(model, quadrature).map_err(|e| e.to_string())?;
     let track = track(model, &joints, e)?;
@@ -476,7 +476,7 @@ fn track(model: &Model, joints: &Joints, e: &StateEvidence) -> Result<Track, Str
     let mut track = Track::start(model, joints, read(first)?);
     for pair in e.steps.windows(2) {
         if !(pair[1].load_factor > pair[0].load_factor && pair[1].load_factor.is_finite()) {
-            return Err("load factors of the path do not grow".into());
+            return Err("the load factors of the path do not increase".into());
         }
         track.push(model, joints, pair[1].load_factor, read(&pair[1])?);
     }
@@ -488,15 +488,15 @@ fn laws(track: &Track) -> Findings {
     let r = track.residuals();
     let mut f = Findings { grade: Grade::ToRounding(r.worst()), ..Findings::default() };
     for (what, value) in [
-        ("balance: every block, of its load", r.balance),
-        ("Signorini, gap >= 0 beside what the joint closes", r.gap),
+        ("equilibrium error of every block, relative to its load", r.balance),
+        ("Signorini, gap >= 0 relative to the closure of the joint", r.gap),
         ("Signorini, pressure >= 0", r.pressure),
         ("Signorini, gap x pressure = 0", r.complementarity),
         ("Coulomb, shear within the cone", r.cone),
-        ("Coulomb, slip only at the limit", r.sticking),
+        ("Coulomb, slip only at the friction limit", r.sticking),
         ("Coulomb, slip against the shear force", r.direction),
     ] {
-        require(&mut f, value <= HOLDS, format!("{what}: to {value:.1e}"));
+        require(&mut f, value <= HOLDS, format!("{what}: within {value:.1e}"));
     }
     f
 }
@@ -513,7 +513,7 @@ fn path(
     require(
         f,
         bound.is_some() == live && (live || e.steps.len() == 1) && !(live && o.dead_only),
-        "there is a path where there is a bound",
+        "a path is given where there is a bound, and only there",
     );
     let Some(bound) = bound else { return };
     let fits = match e.end {
@@ -521,12 +521,12 @@ fn path(
         PathEnd::Unbounded => bound.status == Outcome::Unbounded,
         PathEnd::None | PathEnd::NoBalance | PathEnd::Open => true,
     };
-    require(f, fits, "it ends as its bound lets it");
+    require(f, fits, "the end of the path agrees with its bound");
     let Some(top) = bound.upper.filter(|_| bound.status == Outcome::Found) else { return };
     require(f, last <= top, format!("the path ends at {last}, not above the bound {top}"));
     if e.end == PathEnd::Bound {
         let near = bound.value.is_some_and(|v| last >= (1.0 - 2e-3) * v);
-        require(f, near, "it ends a thousandth below the bound");
+        require(f, near, "the path ends a thousandth below the bound");
     }
 }
 
@@ -545,7 +545,7 @@ fn ends_again(
     let last = track.steps[track.steps.len() - 1].load_factor;
     let text = format!("the path ends at {last}");
     match d.again.stated(o, d.scene, d.model) {
-        Some(Err(e)) => f.fails.push(format!("the scene has no such path: {e}")),
+        Some(Err(e)) => f.fails.push(format!("the path cannot be computed for this scene: {e}")),
         Some(Ok((end, there))) => {
             let same = end == e.end && (there - last).abs() <= 1e-6 * last.abs().max(there.abs());
             computed(f, Some(same), text);

@@ -193,7 +193,11 @@ pub(super) fn derive(
         _ => false,
     };
     let dry = shrunk.is_empty() || are_dry(&d.model.interfaces);
-    require(&mut f, dry, "sections are shrunk where joints have neither strengths nor water");
+    require(
+        &mut f,
+        dry,
+        "sections are shrunk only where joints have neither strength nor pore pressure",
+    );
     require(&mut f, order, "the geometric safety factor lies between those of the shrunk sections");
     d.part("answer", f);
     let (support, direction, member) = match at {
@@ -238,7 +242,7 @@ fn place(model: &Model, o: &ThrustOptions) -> Result<Sought, String> {
             let member = member.ok_or(format!("the scene has no member {id}"))?;
             Ok(Sought::Member(MemberAt { member, along }))
         }
-        _ => Err("it is not said whose force is meant".into()),
+        _ => Err("the question names neither a support nor a member".into()),
     }
 }
 
@@ -276,11 +280,11 @@ fn end(
             (Sought::Member(MemberAt { member, along }), extreme, none(Outcome::Unbounded))
         }
         Some(_) => {
-            d.part(title, failure("what is proved is no thrust"));
+            d.part(title, failure("the proved claim is not a thrust"));
             return (none(Outcome::Undecided), None);
         }
     };
-    require(&mut f, at == here && extreme == wanted, "it is the force that was asked for");
+    require(&mut f, at == here && extreme == wanted, "the force is the one that was asked for");
     d.part(title, f);
     let forces = proven.map(|p| p.forces).filter(|_| bound.status == Outcome::Found);
     (bound, forces)

@@ -49,9 +49,9 @@ pub fn verify_model(
         Ok(Derived { file, mut check }) => {
             let here = serde_json::to_value(&file.told).unwrap_or_default();
             check.parts.push(("answer in the file".into(), match compare::difference(&saved.answer, &here) {
-                None => crate::verdict::claim::Findings { holds: vec!["the answer is what follows from the evidence".into()], ..Default::default() },
+                None => crate::verdict::claim::Findings { holds: vec!["the answer follows from the evidence".into()], ..Default::default() },
                 Some(at) => failure(format!(
-                    "the answer in the file is not what follows from its evidence: it differs at answer{at}"
+                    "the answer in the file does not follow from its evidence: it differs at answer{at}"
                 )),
             }));
             Verified { file: Some(file), check }

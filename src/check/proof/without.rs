@@ -71,7 +71,7 @@ pub(super) fn derive(d: &mut Derivation, e: &WithoutEvidence) -> Result<Told, St
     let (scene, model) = (d.scene, d.model);
     let stages = Stage::removals(&model.assembly).map_err(|e| e.to_string())?;
     let mut f = Findings::default();
-    let text = format!("there is a verdict for every free block, {} of them", stages.len());
+    let text = format!("every free block has a verdict ({} in all)", stages.len());
     require(&mut f, e.left.len() <= stages.len(), text);
     d.part("blocks", f);
     let nothing = Standing::default();

@@ -39,7 +39,7 @@ impl Asked for CriticalOptions {
             return refuse("between", "the range is empty".into());
         }
         if self.scan.is_some_and(|n| !(2..=SCANNED).contains(&n)) {
-            let text = format!("must be from 2, both ends of the range, to {SCANNED}");
+            let text = format!("must be from 2 (both ends of the range) to {SCANNED}");
             return refuse("scan", text);
         }
         Ok(())

@@ -2,11 +2,57 @@
 
 use base::error::{InputError, JsonPath};
 use nalgebra::Vector3;
+use serde::{Deserialize, Deserializer};
 
 /// Directions of a tilt where nothing is said.
 pub const DIRECTIONS: u16 = 8;
 /// Most directions of a tilt: every tenth of a degree.
 const MOST_DIRECTIONS: u16 = 3600;
+
+/// A direction as people write it: two coordinates or three.
+#[derive(Deserialize)]
+#[serde(untagged, expecting = "expected a direction such as [0, -1] or [1, 0, 0]")]
+enum Written {
+    Plane([f64; 2]),
+    Space([f64; 3]),
+}
+
+impl From<Written> for [f64; 3] {
+    fn from(written: Written) -> Self {
+        match written {
+            Written::Plane([x, y]) => [x, y, 0.0],
+            Written::Space(all) => all,
+        }
+    }
+}
+
+/// One direction of two or three coordinates.
+///
+/// # Errors
+/// It is none.
+pub(super) fn one<'de, D: Deserializer<'de>>(from: D) -> Result<[f64; 3], D::Error> {
+    Written::deserialize(from).map(Into::into)
+}
+
+/// A direction or a list of them.
+///
+/// # Errors
+/// It is neither.
+pub(super) fn several<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<[f64; 3]>, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(
+        untagged,
+        expecting = "expected directions such as [[0, -1]] or [[1, 0, 0], [0, 1, 0]]"
+    )]
+    enum Given {
+        One(Written),
+        Several(Vec<Written>),
+    }
+    Ok(match Given::deserialize(from)? {
+        Given::One(one) => vec![one.into()],
+        Given::Several(list) => list.into_iter().map(Into::into).collect(),
+    })
+}
 
 /// Refuses directions that are given and counted, or too many.
 pub(super) fn check_directions(

@@ -19,7 +19,7 @@ impl Asked for RockOptions {
     }
 
     fn idle_in_rows(&self) -> Option<Idle> {
-        let hint = "remove it: rows end by themselves once their fate is known";
+        let hint = "remove it: a row ends once its outcome is known";
         self.fate_only.then_some(("fate_only", hint))
     }
 

@@ -3,7 +3,7 @@
 use super::{
     asked::{Asked, Idle, chosen},
     control::ControlPoint,
-    directions::check_directions,
+    directions::{self, check_directions},
 };
 use crate::terms::Law;
 use base::error::{InputError, JsonPath};
@@ -21,7 +21,7 @@ pub struct KinematicOptions {
     /// A load factor α0 below this counts as failure.
     pub require: Option<f64>,
     /// Earthquakes towards these directions.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(skip_serializing_if = "Vec::is_empty", deserialize_with = "directions::several")]
     pub toward: Vec<[f64; 3]>,
     /// Earthquakes towards this many directions, evenly spread, the first along x; 8 where nothing is
     /// said.
@@ -48,10 +48,10 @@ impl Asked for KinematicOptions {
     fn check(&self, path: &JsonPath) -> Result<(), InputError> {
         let refuse = |key: &str, text: String| Err(InputError::at(path.key(key), text));
         if let Some(f) = self.fc.filter(|f| !(*f >= 1.0 && f.is_finite())) {
-            return refuse("fc", format!("a factor of confidence is at least 1, got {f}"));
+            return refuse("fc", format!("the confidence factor must be at least 1, got {f}"));
         }
         if self.at.iter().any(|v| !(*v >= 0.0 && v.is_finite())) {
-            return refuse("at", "must be ways from 0 on".into());
+            return refuse("at", "must be displacements >= 0".into());
         }
         if self.linear && !self.at.is_empty() {
             return refuse("at", "the linear analysis has no curve".into());
@@ -69,13 +69,13 @@ impl Asked for KinematicOptions {
         if self.skip_dead {
             return Some((
                 "skip_dead",
-                "remove it: rows ask for the verdict without an earthquake where dry friction needs it, and nowhere else",
+                "remove it: rows compute the verdict without the earthquake only where dry friction needs it",
             ));
         }
         if self.linear {
-            return Some(("linear", "remove it: rows show α0, and ask for no curve"));
+            return Some(("linear", "remove it: rows give α0 and no curve"));
         }
-        (!self.at.is_empty()).then_some(("at", "remove it: rows ask for no curve"))
+        (!self.at.is_empty()).then_some(("at", "remove it: rows give no curve"))
     }
 
     /// With dry friction all directions share the verdict without an earthquake.

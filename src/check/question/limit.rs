@@ -28,7 +28,7 @@ impl Asked for LimitOptions {
     }
 
     fn idle_in_rows(&self) -> Option<Idle> {
-        let hint = "remove it: rows never ask for the verdict without the live load";
+        let hint = "remove it: rows never compute the verdict without the live load";
         self.skip_dead.then_some(("skip_dead", hint))
     }
 

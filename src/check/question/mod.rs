@@ -186,6 +186,6 @@ impl Question {
     pub fn check_for_one_number(&self) -> Result<(), InputError> {
         let Some((key, hint)) = self.idle_in_rows() else { return Ok(()) };
         let path = JsonPath::root().key(self.word()).key(key);
-        Err(InputError::at(path, "does nothing in rows of a sweep").hint(hint))
+        Err(InputError::at(path, "has no effect in the rows of a sweep").hint(hint))
     }
 }

@@ -32,7 +32,7 @@ impl Asked for MovingOptions {
     }
 
     fn idle_in_rows(&self) -> Option<Idle> {
-        let hint = "remove it: rows ask for the verdict without the train where dry friction needs it, and nowhere else";
+        let hint = "remove it: rows compute the verdict without the train only where dry friction needs it";
         self.skip_dead.then_some(("skip_dead", hint))
     }
 

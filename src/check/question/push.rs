@@ -1,6 +1,6 @@
 //! What is asked of a live load as the scene moves.
 
-use super::{asked::Asked, control::ControlPoint};
+use super::{asked::Asked, control::ControlPoint, directions};
 use crate::{path::saved::SavedPose, terms::Law};
 use base::error::{InputError, JsonPath};
 use nalgebra::Vector3;
@@ -14,6 +14,7 @@ pub struct PushOptions {
     /// The point whose way is the parameter, m.
     pub control: ControlPoint,
     /// The direction in which its way is measured.
+    #[serde(deserialize_with = "directions::one")]
     pub toward: [f64; 3],
     /// Values of the parameter that become the points of the curve, beside its start, its events and
     /// its end, m; empty: where it bends.
@@ -28,10 +29,10 @@ impl Asked for PushOptions {
     fn check(&self, path: &JsonPath) -> Result<(), InputError> {
         let refuse = |key: &str, text: &str| Err(InputError::at(path.key(key), text));
         if !Vector3::from(self.toward).normalize().iter().all(|v| v.is_finite()) {
-            return refuse("toward", "the direction has no length");
+            return refuse("toward", "the direction must not be zero");
         }
         if self.at.iter().any(|v| !(*v >= 0.0 && v.is_finite())) {
-            return refuse("at", "must be ways from 0 on");
+            return refuse("at", "must be displacements >= 0");
         }
         Ok(())
     }
@@ -42,6 +43,6 @@ impl Asked for PushOptions {
     }
 
     fn quantity(&self) -> Option<&'static str> {
-        Some("way of the control point up to which it resists in m")
+        Some("displacement of the control point up to which it resists in m")
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{
     asked::{Asked, chosen},
-    directions::check_directions,
+    directions::{self, check_directions},
 };
 use crate::terms::Law;
 use base::error::{InputError, JsonPath};
@@ -20,7 +20,7 @@ pub struct ReposeOptions {
     /// An angle below this, in degrees, counts as failure.
     pub require: Option<f64>,
     /// Tip towards these directions.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(skip_serializing_if = "Vec::is_empty", deserialize_with = "directions::several")]
     pub toward: Vec<[f64; 3]>,
     /// Tip towards this many directions, evenly spread, the first along x; 8 where nothing is said.
     pub all: Option<u16>,

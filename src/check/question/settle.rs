@@ -61,7 +61,7 @@ impl Asked for SettleOptions {
         let refuse = |key: &str, text: String| Err(InputError::at(path.key(key), text));
         for (k, m) in self.moves.iter().enumerate() {
             if self.moves[..k].iter().any(|other| other.support == m.support) {
-                return refuse("moves", format!("{} is told to move twice", m.support));
+                return refuse("moves", format!("{}: two movements are given", m.support));
             }
             if !m.way.iter().chain(&m.turn_deg).chain([&m.out]).all(|v| v.is_finite()) {
                 return refuse("moves", format!("{}: a number is not finite", m.support));

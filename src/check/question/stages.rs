@@ -2,7 +2,7 @@
 
 use super::{
     asked::{Asked, Idle, chosen},
-    directions::check_directions,
+    directions::{self, check_directions},
 };
 use crate::terms::Law;
 use base::error::{InputError, JsonPath};
@@ -31,7 +31,7 @@ pub struct StagesOptions {
     /// stands by itself; 5000 where nothing is said.
     pub tries: Option<usize>,
     /// Tilts towards these directions, where a stage has no live load.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(skip_serializing_if = "Vec::is_empty", deserialize_with = "directions::several")]
     pub toward: Vec<[f64; 3]>,
     /// Tilts towards this many directions, evenly spread, the first along x; 8 where nothing is
     /// said.
@@ -59,12 +59,14 @@ impl Asked for StagesOptions {
         let refuse = |key: &str, text: &str| Err(InputError::at(path.key(key), text));
         let tilts = self.all.is_some() || !self.toward.is_empty();
         if self.any_order && !self.order.is_empty() {
-            return refuse("any_order", "an order is given and sought");
+            return refuse("any_order", "cannot be combined with \"order\"");
         }
         match self.has_order() {
-            true if tilts => refuse("toward", "no tilts are asked for where an order is"),
-            false if self.hands.is_some() => refuse("hands", "no order is asked for"),
-            false if self.tries.is_some() => refuse("tries", "no order is asked for"),
+            true if tilts => {
+                refuse("toward", "an order is asked for: tilts are not computed beside it")
+            }
+            false if self.hands.is_some() => refuse("hands", "needs \"order\" or \"any_order\""),
+            false if self.tries.is_some() => refuse("tries", "needs \"order\" or \"any_order\""),
             true if self.tries.is_some_and(|n| !(1..=MOST_TRIES).contains(&n)) => {
                 refuse("tries", &format!("must be from 1 to {MOST_TRIES}"))
             }
@@ -83,12 +85,12 @@ impl Asked for StagesOptions {
 
     fn idle_in_rows(&self) -> Option<Idle> {
         if self.skip_margin {
-            return Some(("skip_margin", "remove it: rows ask for no margins"));
+            return Some(("skip_margin", "remove it: rows give no margins"));
         }
         if self.skip_held {
-            return Some(("skip_held", "remove it: rows ask for no forces on what is held"));
+            return Some(("skip_held", "remove it: rows give no forces on held blocks"));
         }
-        let hint = "remove it: rows ask for no tilts";
+        let hint = "remove it: rows give no tilts";
         match self.all.is_some() {
             true => Some(("all", hint)),
             false => (!self.toward.is_empty()).then_some(("toward", hint)),

@@ -59,7 +59,7 @@ impl Asked for StateOptions {
     }
 
     fn idle_in_rows(&self) -> Option<Idle> {
-        let hint = "remove it: rows show no curve";
+        let hint = "remove it: rows give no curve";
         match self.at.is_empty() {
             false => Some(("at", hint)),
             true => self.control.is_some().then_some(("control", hint)),

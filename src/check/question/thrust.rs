@@ -51,7 +51,7 @@ impl Asked for ThrustOptions {
     }
 
     fn idle_in_rows(&self) -> Option<Idle> {
-        let hint = "remove it: a row has one number, the least thrust or with \"greatest\": true the greatest; two plans give both";
+        let hint = "remove it: a row has one number, the least thrust, or the greatest with \"greatest\": true; two plans give both";
         self.range.then_some(("range", hint))
     }
 

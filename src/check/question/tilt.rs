@@ -2,7 +2,7 @@
 
 use super::{
     asked::{Asked, Idle, chosen},
-    directions::check_directions,
+    directions::{self, check_directions},
 };
 use crate::terms::Law;
 use base::error::{InputError, JsonPath};
@@ -20,7 +20,7 @@ pub struct TiltOptions {
     /// A tilt below this, in degrees, counts as failure.
     pub require: Option<f64>,
     /// Tip towards these directions.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(skip_serializing_if = "Vec::is_empty", deserialize_with = "directions::several")]
     pub toward: Vec<[f64; 3]>,
     /// Tip towards this many directions, evenly spread, the first along x; 8 where nothing is said.
     pub all: Option<u16>,
@@ -42,7 +42,8 @@ impl Asked for TiltOptions {
     }
 
     fn idle_in_rows(&self) -> Option<Idle> {
-        let hint = "remove it: rows ask for the verdict when level where dry friction needs it, and nowhere else";
+        let hint =
+            "remove it: rows compute the verdict without tilt only where dry friction needs it";
         self.skip_dead.then_some(("skip_dead", hint))
     }
 

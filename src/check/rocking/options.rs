@@ -73,7 +73,7 @@ impl RockOptions {
     pub fn check(&self) -> Result<(), InputError> {
         let refuse = |key: &str, text: &str| Err(InputError::at(JsonPath::root().key(key), text));
         if !self.toward.iter().all(|v| v.is_finite()) || self.toward == [0.0; 3] {
-            return refuse("toward", "the direction has no length");
+            return refuse("toward", "the direction must not be zero");
         }
         if !self.ground.moves() && self.from == 0.0 {
             return refuse("ground", "nothing moves: give a pulse, a record or \"from\"");
@@ -93,7 +93,7 @@ impl RockOptions {
         }
         let rises = |[from, to]: [f64; 2]| from >= 0.0 && from < to && to.is_finite();
         if self.scan.is_some_and(|s| !rises(s)) {
-            return refuse("scan", "must be two scales from 0 on, the lesser one first");
+            return refuse("scan", "must be two scales >= 0, the smaller one first");
         }
         Ok(())
     }

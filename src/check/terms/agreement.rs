@@ -16,7 +16,7 @@ pub struct Agreement {
     pub fate: Fate,
     /// Whether they say the same; absent where one of them is undecided, or the joints have
     /// strengths that the simulation leaves out. A conditional verdict says that it falls, because
-    /// the simulation starts without a pre-stress.
+    /// the simulation starts without self-stress.
     pub agrees: Option<bool>,
     /// Where both fall: cosine between the first motion and the mechanism, in the metric of the
     /// kinetic energy. 1 is the same motion; a scene with several ways to fall takes the fastest,

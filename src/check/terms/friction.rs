@@ -26,7 +26,7 @@ pub enum Found {
     /// The state under dry friction rests at a load factor that was asked for, because another
     /// answer is no higher: there is no value, only that it is not less. Computed, not proved.
     AtLeast,
-    /// Already under the dead load the state does not rest: it needs a pre-stress, or falls, which a
+    /// Already under the dead load the state does not rest: it needs self-stress, or falls, which a
     /// bound below zero proves. There is no value.
     NotAtRest,
     /// It did not settle: there is no value.

@@ -100,14 +100,14 @@ pub fn read_members(
     for saved in saved {
         let Some(m) = index.remove(saved.member.as_str()) else {
             return Err(format!(
-                "member {}: the scene has none of this name, or the result has it twice",
+                "member {}: not in the scene, or twice in the result",
                 saved.member
             ));
         };
         let axes = Bounds::of(&interfaces.members[m]).axes();
         if saved.force.len() != axes {
             let got = saved.force.len();
-            return Err(format!("member {}: {got} numbers, it has {axes}", saved.member));
+            return Err(format!("member {}: {got} numbers given, {axes} needed", saved.member));
         }
         if !saved.force.iter().all(|v| v.is_finite()) {
             return Err(format!("member {}: a number is not finite", saved.member));
@@ -174,9 +174,7 @@ pub fn read_forces(model: &Model, saved: &[ContactForces]) -> Result<Forces, Str
         let fit =
             candidates.filter_map(|k| Some((places(model, (*k)?, &contact.points)?, k))).next();
         let Some((places, slot)) = fit else {
-            return Err(format!(
-                "contact {a} | {b}: the scene has no such contact, or has it twice in the result"
-            ));
+            return Err(format!("contact {a} | {b}: not in the scene, or twice in the result"));
         };
         if let Some(k) = slot.take() {
             for (saved, place) in places.into_iter().enumerate() {

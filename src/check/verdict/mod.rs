@@ -29,7 +29,7 @@ use serde::{Deserialize, Serialize};
 pub enum Verdict {
     /// Admissible contact forces balance the loads. Proof: the forces.
     Stable,
-    /// Admissible forces exist, but only with a pre-stress that the loads do not produce: with dry
+    /// Admissible forces exist, but only with self-stress that the loads do not produce: with dry
     /// friction and none applied, the scene moves. Proof: the forces, and a motion that obeys
     /// Coulomb's law.
     Conditional,
@@ -84,7 +84,7 @@ pub struct Evidence<'a> {
     /// Contact forces: the static side.
     pub forces: &'a Forces,
     /// Unbounded: forces at a load factor at which the scene stands, beside those of the live load
-    /// alone. Conditional: the forces without the pre-stress.
+    /// alone. Conditional: the forces without the self-stress.
     pub base: Option<&'a Forces>,
     /// Rates of all blocks: the kinematic side.
     pub rates: &'a [Rate],

@@ -233,7 +233,7 @@ impl Sought {
                 let there =
                     model.interfaces.members.get(at.member).is_some_and(|own| at.is_of(own));
                 if !there {
-                    f.fails.push("the force is not one of a member along its direction".into());
+                    f.fails.push("the force is not that of a member along its direction".into());
                 }
                 there
             }
@@ -347,13 +347,13 @@ pub(super) fn verify(
     let width = width(assembly, p.value);
     f.require(
         (p.value - value).abs() <= width,
-        format!("their {} is {:.9e} N, claimed {value:.9e} N", at.word(), p.value),
+        format!("the {} of these forces is {:.9e} N, claimed {value:.9e} N", at.word(), p.value),
     );
     let total: f64 = assembly.free().map(|i| certificate::load_scale(assembly, i)).sum();
     f.require(
         p.is_admissible(total),
         format!(
-            "the mechanism is admissible: its rounding could hide at most {:.1e} of the total load",
+            "the mechanism is admissible: its rounding can change the result by at most {:.1e} of the total load",
             p.behind / total
         ),
     );
@@ -367,10 +367,8 @@ pub(super) fn verify(
     );
     let open = p.upper - p.lower;
     if open.is_nan() || open > 2.0 * width {
-        f.fails.push(format!(
-            "the two sides do not meet: bracket {open:.1e} N wide, allowed {:.1e} N",
-            2.0 * width
-        ));
+        f.fails
+            .push(format!("the bracket is too wide: {open:.1e} N, allowed {:.1e} N", 2.0 * width));
     }
 }
 
@@ -408,7 +406,7 @@ pub(super) fn verify_endless(
     let total: f64 = assembly.free().map(|i| certificate::load_scale(assembly, i)).sum();
     f.require(
         -extreme.sigma() * dry >= 0.5 * total,
-        format!("they push with {dry:.3e} N, at least half the total load of {total:.3e} N needed, and may be multiplied without end"),
+        format!("they push with {dry:.3e} N (at least half the total load of {total:.3e} N is needed) and can be multiplied without limit"),
     );
 }
 
@@ -416,7 +414,7 @@ fn is_support(f: &mut Findings, assembly: &Assembly, at: &ThrustAt) -> bool {
     let support = assembly.blocks.get(at.support).is_some_and(|b| b.support);
     let unit = (at.d().norm() - 1.0).abs() <= tolerance::ALONG;
     if !support || !unit {
-        f.fails.push("the thrust is not one on a support along a unit direction".into());
+        f.fails.push("the thrust does not act on a support along a unit direction".into());
     }
     support && unit
 }

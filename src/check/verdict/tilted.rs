@@ -52,7 +52,7 @@ pub fn turned(
         {
             return Err(InputError::at(
                 Default::default(),
-                format!("tilt turns dead loads with gravity, but the dead load on {:?} is not a hanging weight", assembly.blocks[i].id),
+                format!("tilting rotates dead loads with gravity, but the dead load on {:?} is not a weight along gravity", assembly.blocks[i].id),
             )
             .hint("give it as a force along gravity, or ask `limit` with the tilting force as a live load"));
         }

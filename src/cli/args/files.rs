@@ -12,7 +12,7 @@ use voussoir::{import::Up, scene::Friction};
 pub struct Open {
     /// The scene (JSON).
     pub scene: PathBuf,
-    /// Answer on this port; any that is free by default.
+    /// Port of the page; by default any that is free.
     #[arg(long, value_name = "PORT", default_value_t = 0, hide_default_value = true)]
     pub port: u16,
     #[command(flatten)]
@@ -21,11 +21,10 @@ pub struct Open {
 
 #[derive(Debug, Args)]
 pub struct Schema {
-    /// Of what: `scene`, `plan`, `result` (what --json and --save give) or `model` (what `check
-    /// SCENE --json` gives).
+    /// `scene`, `plan`, `result` (of --json and --save) or `model` (of `check SCENE --json`).
     #[arg(value_enum, default_value_t = FileFormat::Scene, hide_possible_values = true)]
     pub of: FileFormat,
-    /// Print tables of its keys for people (Markdown) instead.
+    /// Print tables of the keys (Markdown) in place of the schema.
     #[arg(long)]
     pub markdown: bool,
 }
@@ -47,7 +46,7 @@ pub struct Completions {
 
 #[derive(Debug, Args)]
 pub struct Man {
-    /// The verb that the page is about; the program as a whole where none is named.
+    /// Verb to describe; by default the program as a whole.
     #[arg(conflicts_with = "folder")]
     pub verb: Option<String>,
     /// Write the pages of the program and of all verbs into this folder.
@@ -57,10 +56,10 @@ pub struct Man {
 
 #[derive(Debug, Args)]
 pub struct Generate {
-    /// The template; --list shows them.
+    /// Name of the template; --list shows them.
     #[arg(required_unless_present_any = ["list", "help"])]
     pub template: Option<String>,
-    /// What differs from the template's own values.
+    /// Values that differ from the template's defaults.
     #[arg(value_name = "KEY=VALUE", value_parser = assignment)]
     pub set: Vec<(String, String)>,
     /// Print help; after a template, its parameters with their units.
@@ -79,10 +78,10 @@ pub struct Generate {
     #[arg(long)]
     pub name: Option<String>,
     /// Write the blocks themselves in place of the template.
-    #[arg(long)]
+    #[arg(long, help_heading = "Output")]
     pub expand: bool,
-    /// Write the scene to this file; standard output by default.
-    #[arg(short, long, value_name = "FILE", value_parser = output(Written::Json))]
+    /// Write the scene to this file; by default to standard output.
+    #[arg(short, long, value_name = "FILE", value_parser = output(Written::Json), help_heading = "Output")]
     pub output: Option<PathBuf>,
 }
 
@@ -91,37 +90,37 @@ pub struct Import {
     /// The files; PLY and STL hold one block each.
     #[arg(required = true)]
     pub files: Vec<PathBuf>,
-    /// Write the scene to this file; standard output by default.
-    #[arg(short, long, value_name = "FILE", value_parser = output(Written::Json))]
+    /// Write the scene to this file; by default to standard output.
+    #[arg(short, long, value_name = "FILE", value_parser = output(Written::Json), help_heading = "Output")]
     pub output: Option<PathBuf>,
-    /// A block that is held in place; may be given several times.
+    /// Block that is held in place; may be given several times.
     #[arg(long, value_name = "ID")]
     pub support: Vec<String>,
-    /// Hold blocks whose lowest corner lies below this height, in m of the scene.
+    /// Hold blocks whose lowest corner is below this height, in m of the scene.
     #[arg(long, value_name = "Z", allow_negative_numbers = true, value_parser = finite)]
     pub support_below: Option<f64>,
-    /// A file whose blocks are all held in place; may be given several times.
+    /// File whose blocks are all held in place; may be given several times.
     #[arg(long, value_name = "FILE")]
     pub supports_file: Vec<PathBuf>,
     /// Coefficient of friction of every joint, or `infinite`.
     #[arg(long, value_name = "MU", allow_negative_numbers = true, value_parser = friction)]
     pub friction: Option<Friction>,
-    /// Density of every block, kg/m³, in place of what the file says.
+    /// Density of every block, kg/m³, in place of the file's own.
     #[arg(long, value_name = "DENSITY", allow_negative_numbers = true, value_parser = positive)]
     pub density: Option<f64>,
     /// Multiply coordinates: 0.001 for a file in millimetres.
     #[arg(long, value_name = "S", default_value_t = 1.0, allow_negative_numbers = true, value_parser = positive)]
     pub scale: f64,
-    /// The axis of the file that points up: x, y, z, -x, -y or -z.
+    /// Axis of the file that points up: x, y, z, -x, -y or -z.
     #[arg(long, value_name = "AXIS", default_value = "z", allow_hyphen_values = true, value_parser = up)]
     pub up: Up,
-    /// How far apart faces may be and still touch, relative to the smaller block's size.
+    /// Greatest gap between touching faces, relative to the size of the smaller block.
     #[arg(long, value_name = "GAP", allow_negative_numbers = true, value_parser = not_negative)]
     pub gap: Option<f64>,
-    /// How far from parallel faces may be and still touch, in degrees (1 where it is not said).
+    /// Greatest angle between touching faces, in degrees (1 by default).
     #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = finite)]
     pub angle: Option<f64>,
-    /// Leave out the interfaces stored in the file: all contacts are detected.
+    /// Ignore the interfaces stored in the file and detect all contacts.
     #[arg(long)]
     pub no_stored_interfaces: bool,
     #[command(flatten)]
@@ -132,7 +131,7 @@ pub struct Import {
 pub struct Check {
     /// A result or a scene (JSON), `-` for standard input.
     pub file: PathBuf,
-    /// Verify the result against this scene, not the one inside it.
+    /// Verify the result against this scene in place of the one inside it.
     #[arg(long, value_name = "FILE")]
     pub scene: Option<PathBuf>,
     #[command(flatten)]
@@ -141,11 +140,15 @@ pub struct Check {
     pub pictures: Pictures,
     #[command(flatten)]
     pub tables: Tables,
-    /// Print one JSON object and nothing else: of a result, what holds and what fails; of a scene,
-    /// its blocks with their masses and loads, its interfaces with contact points and frames, and
-    /// the findings.
-    #[arg(long)]
+    /// Print one JSON object and nothing else.
+    ///
+    /// For a result, what holds and what fails. For a scene, its blocks with their masses and
+    /// loads, its interfaces with contact points and frames, and the findings.
+    #[arg(long, help_heading = "Output")]
     pub json: bool,
+    /// Print the first line only.
+    #[arg(short, long, conflicts_with = "json", help_heading = "Output")]
+    pub quiet: bool,
     #[command(flatten)]
     pub limit: TimeLimit,
 }

@@ -8,18 +8,20 @@ use voussoir::ground::{Pulse, Unit};
 /// How the ground moves.
 #[derive(Debug, Args)]
 pub struct Ground {
-    /// Move the ground by this record of acceleration (CSV, PEER AT2, ESM or ITACA ASCII). Its
-    /// components, or up to three files, go towards --toward, to the left of it, and up.
+    /// Move the ground by this acceleration record (CSV, PEER AT2, ESM or ITACA ASCII).
+    ///
+    /// Its components, or up to three files, act towards --toward, to the left of it, and up.
     #[arg(long, value_name = "RECORD")]
     pub ground: Vec<PathBuf>,
-    /// Move the ground by a pulse towards --toward: rectangle:A,T, half-sine:A,T, sine:A,T (m/s²,
-    /// s), jump:V or double-jump:V (m/s).
+    /// Move the ground by a pulse towards --toward, such as half-sine:A,T.
+    ///
+    /// Pulses are rectangle:A,T, half-sine:A,T, sine:A,T (m/s², s), jump:V and double-jump:V (m/s).
     #[arg(long, value_name = "PULSE", conflicts_with = "ground", value_parser = pulse)]
     pub pulse: Option<(String, Pulse)>,
-    /// The unit of the accelerations where the record does not say it: m/s2, cm/s2, mm/s2, g, %g.
+    /// Unit of accelerations if the record states none: m/s2, cm/s2, mm/s2, g or %g.
     #[arg(long, value_name = "UNIT", requires = "ground")]
     pub units: Option<Unit>,
-    /// Multiply the motion of the ground by this [default: 1].
+    /// Multiply the ground motion by this factor [default: 1].
     #[arg(long, value_name = "K", allow_negative_numbers = true, value_parser = finite)]
     pub scale: Option<f64>,
 }
@@ -36,18 +38,20 @@ impl Ground {
 pub struct Rocking {
     #[command(flatten)]
     pub ground: Ground,
-    /// What is left of the speed at every impact, between 0 and 1; by default what conserves
-    /// momentum without bouncing.
+    /// Share of the speed kept at every impact, between 0 and 1.
+    ///
+    /// By default it conserves momentum without bouncing.
     #[arg(long, value_name = "E", value_parser = restitution)]
     pub restitution: Option<f64>,
-    /// Begin at this part of the unstable equilibrium, at rest: rocks freely where the ground does
-    /// not move.
+    /// Start at rest at this share of the unstable equilibrium.
+    ///
+    /// If the ground does not move, the mechanism rocks freely.
     #[arg(long, value_name = "PART", allow_negative_numbers = true, value_parser = finite)]
     pub from: Option<f64>,
-    /// Follow the mechanism for so many seconds; by default until it is at rest or has overturned.
+    /// Duration to follow, in s; by default until it is at rest or has overturned.
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = positive)]
     pub seconds: Option<f64>,
-    /// Find the scales of the motion between these two at which it begins or ceases to overturn.
+    /// Find the scales of the motion in this range at which overturning begins or ceases.
     #[arg(long, value_name = "FROM,TO", value_parser = scales)]
     pub scan: Option<(f64, f64)>,
 }

@@ -11,41 +11,49 @@ use std::path::PathBuf;
 pub struct Kinematic {
     #[command(flatten)]
     pub common: Common,
-    /// An earthquake towards this direction (its part across gravity); may be given several times.
+    /// Direction of the earthquake; may be given several times.
+    ///
+    /// Only its part across gravity counts.
     #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true, value_parser = direction)]
     pub toward: Vec<[f64; 3]>,
-    /// Earthquakes towards this many directions, evenly spread, the first along x; the worst is the
-    /// answer.
+    /// Number of directions of the earthquake, evenly spread, the first along x.
+    ///
+    /// The worst direction is the answer.
     #[arg(long, value_name = "N", default_value_t = DIRECTIONS, conflicts_with = "toward", value_parser = clap::value_parser!(u16).range(1..=3600))]
     pub all: u16,
-    /// The point of a free block, m, whose way measures the motion; by default the centre of mass
-    /// of the block next to the centre of all masses that move.
+    /// Point of a free block, m, whose displacement measures the motion.
+    ///
+    /// By default it is the centre of mass of the block next to the centre of all masses that move.
     #[arg(long, value_name = "BLOCK=X,Y,Z", allow_hyphen_values = true, value_parser = control)]
     pub control: Option<(String, [f64; 3])>,
-    /// Factor of confidence, by which accelerations are divided [default: 1.35].
+    /// Confidence factor, by which accelerations are divided [default: 1.35].
     #[arg(long, value_name = "FC", value_parser = at_least_one)]
     pub fc: Option<f64>,
-    /// Ways of the control point, m, that become points of the curve, beside others.
+    /// Additional displacements of the control point to report, in m.
     #[arg(long, value_name = "V1,V2,…", value_delimiter = ',', value_parser = finite)]
     pub at: Vec<f64>,
-    /// The linear analysis alone: no curve.
+    /// Linear analysis only, without the capacity curve.
     #[arg(long, conflicts_with = "at")]
     pub linear: bool,
-    /// The α0 that is needed: exit code 1 if that of the worst direction, with dry friction too
-    /// unless --law associative, is below, 3 if that stays open.
+    /// Required α0: exit code 1 if that of the worst direction is lower, 3 if undecided.
+    ///
+    /// Unless `--law associative` is given, the α0 under dry friction must reach it too.
     #[arg(long, value_name = "ALPHA", allow_negative_numbers = true, value_parser = finite)]
     pub require: Option<f64>,
-    /// Do not ask as well whether it stands without an earthquake.
+    /// Skip the check that it stands without an earthquake.
     #[arg(long)]
     pub skip_dead: bool,
     #[command(flatten)]
     pub rocking: Rocking,
-    /// Write directions, curve and limit states to this file, comma-separated; of a mechanism in
-    /// time its history.
-    #[arg(long, value_name = "FILE", value_parser = output(Written::Csv))]
+    /// Write directions, curve and limit states to this file (CSV).
+    ///
+    /// For a mechanism in time it holds the history.
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Csv), help_heading = "Output")]
     pub csv: Option<PathBuf>,
-    /// Draw the capacity curve to this file: exact and straight, SLV and SLC; of a mechanism in time
-    /// its way over the thickness, and the ground below.
-    #[arg(long, value_name = "FILE", value_parser = output(Written::Svg))]
+    /// Draw the capacity curve with SLV and SLC to this file (SVG).
+    ///
+    /// It shows the exact curve and the straight line. For a mechanism in time it shows the
+    /// displacement relative to the thickness, and the ground below.
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Svg), help_heading = "Pictures")]
     pub svg: Option<PathBuf>,
 }

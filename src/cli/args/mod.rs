@@ -33,30 +33,33 @@ use voussoir::{import::Reach, sweep::Between};
 const EXIT_CODES: &str = "\
 Exit codes:
   0    yes, or done
-  1    a clean negative answer: it falls, a requirement is not met, a result is refuted, a scene has mistakes
+  1    no: the scene falls, a requirement is not met, a result is refuted, or a scene has mistakes
   2    the command line or an input file is wrong, or a file cannot be written
-  3    undecided: the question was asked properly and stayed open
+  3    undecided: the input is valid, but no answer was reached
   130  interrupted
 
 Results go to standard output, everything else to standard error. `-` stands for standard input or output.";
 
-/// Tells whether things made of rigid pieces that only touch stand or fall, and proves it.
+/// Certified stability analysis of masonry and granular assemblies of rigid blocks.
 #[derive(Debug, Parser)]
 #[command(name = "voussoir", version, after_help = EXIT_CODES, arg_required_else_help = true, max_term_width = 110)]
 pub struct Cli {
     #[command(subcommand)]
     pub verb: Verb,
-    /// Colour of text: auto (on a terminal, unless NO_COLOR is set), always or never.
-    #[arg(long, global = true, value_enum, value_name = "WHEN", default_value_t = Color::Auto, hide_possible_values = true)]
+    /// Colour of text: auto, always or never.
+    ///
+    /// `auto` means colour on a terminal, unless NO_COLOR is set.
+    #[arg(long, global = true, value_enum, value_name = "WHEN", default_value_t = Color::Auto, hide_possible_values = true, help_heading = "Output")]
     pub color: Color,
-    /// Take no more memory than this, such as 500M or 8G: what would is refused, mostly before it
-    /// begins. By default estimates have to fit into the memory that is free, and nothing is
-    /// counted.
-    #[arg(long, global = true, value_name = "SIZE", value_parser = bytes)]
+    /// Memory limit, such as 500M or 8G: work that would exceed it is refused.
+    ///
+    /// Most of it is refused before it begins. By default estimates must fit into the free memory,
+    /// and memory in use is not counted.
+    #[arg(long, global = true, value_name = "SIZE", value_parser = bytes, help_heading = "Solver and limits")]
     pub max_memory: Option<u64>,
 }
 
-/// So many directions a tilt is asked for where nothing is said.
+/// Number of directions of a tilt by default.
 pub const DIRECTIONS: u16 = 8;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -85,157 +88,163 @@ impl From<Law> for voussoir::analysis::Law {
 pub enum Verb {
     /// Does it stand under its dead load?
     ///
-    /// Exit code 0 if it stands, 1 if it falls or stands only with a pre-stress that nobody
-    /// applied, 3 if that stays open.
+    /// Exit code 0 if it stands, 1 if it falls or stands only with a self-stress that no load
+    /// produces, 3 if undecided.
     Assess(Assess),
     /// How large may the live load grow?
     ///
-    /// The greatest load factor λ under which contact forces inside the friction cones balance the
-    /// dead load and λ × the live load, between a lower and an upper bound, with the mechanism by
-    /// which the structure fails. Sliding is associative. Exit code 0 if λ is found or has no
-    /// limit, 1 if λ is below --require or no λ lets it stand, 3 if that stays open.
+    /// The answer is the greatest load factor λ at which contact forces inside the friction cones
+    /// balance the dead load and λ × the live load. It is enclosed by a lower and an upper bound,
+    /// and comes with the governing mechanism. Sliding is associative. Exit code 0 if λ is found or
+    /// has no limit, 1 if λ is below --require or no λ lets it stand, 3 if undecided.
     Limit(Limit),
     /// At what tilt does it fall?
     ///
-    /// The ground is tipped towards a direction until the structure fails; own weight and dead
-    /// loads turn with gravity, live loads are left out. The least tilt of all directions is the
-    /// answer. Exit codes as for `limit`.
+    /// The ground is tipped towards a direction until the structure fails. Own weight and dead
+    /// loads rotate with gravity; live loads do not act. The answer is the least tilt of all
+    /// directions. Exit codes as for `limit`.
     Tilt(Tilt),
     /// How steep may a packing of grains be?
     ///
-    /// The angle of maximum stability: the largest tilt of gravity, per direction, at which the
-    /// packing as it lies still has an admissible system of contact forces. It is reached when the
-    /// first grain loses balance; with --moving-mass the grains that fell are taken away, and the
-    /// tilt is asked for again, until a mechanism moves as much. Exit code 0 if it is found in
-    /// every direction, 1 if the packing falls before it is tilted, 3 if any stays open.
+    /// The answer is the angle of maximum stability: the largest tilt of gravity, per direction, at
+    /// which the packing as it lies still has admissible contact forces. It is reached when the
+    /// first grain loses balance. With --moving-mass, grains that fell are removed and the tilt is
+    /// computed again, until a mechanism moves that share of the mass. Exit code 0 if it is found
+    /// in every direction, 1 if the packing falls before it is tilted, 3 if any direction is
+    /// undecided.
     Repose(Repose),
-    /// At what value of a number in the scene does the verdict flip?
+    /// At what value of a number in the scene does the verdict change?
     ///
     /// The number is named by its JSON pointer, such as /templates/0/arch/thickness or
-    /// /joints/default/friction. The range is scanned first, since there may be several flips; each
-    /// is narrowed to 1e-9 of its value by following the least equilibrium error to zero, and verdicts with
-    /// proof stand on both sides of it. Exit code 0 if there is a flip, 1 if it stands or falls
-    /// throughout, 3 if that stays open.
+    /// /joints/default/friction. The range is scanned first, since the verdict may change several
+    /// times. Each change is narrowed to 1e-9 of its value by following the least equilibrium error
+    /// to zero, with a proved verdict on either side. Exit code 0 if the verdict changes, 1 if it
+    /// is the same throughout, 3 if undecided.
     Critical(Critical),
-    /// How hard does it push a support, at least and at most?
+    /// What are the least and the greatest thrust on a support?
     ///
     /// The thrust is the horizontal component of the force on a support. Forces inside the friction
-    /// cones reach both ends of its range, and mechanisms in which the support yields or is pushed
-    /// in prove that there are no others. With them come the line of thrust at every section and
-    /// the geometric safety factor: how far all sections can be shrunk and still hold a line of
-    /// thrust. Exit code 0 if both ends are found or have no limit, 1 if the scene falls, 3 if that
-    /// stays open.
+    /// cones attain both ends of its range. Mechanisms in which the support yields or is pushed in
+    /// prove that no others exist. The answer includes the line of thrust at every section and the
+    /// geometric safety factor: how far all sections can be shrunk and still contain a line of
+    /// thrust. Exit code 0 if both ends are found or have no limit, 1 if the scene falls, 3 if
+    /// undecided.
     Thrust(Thrust),
-    /// How far may supports move until it falls?
+    /// How far may supports move before it falls?
     ///
-    /// Supports move along given ways, slowly, and yield: at the start the blocks push them with
-    /// the least force that there can be. The motion is followed with finite rotations from hinge to
-    /// hinge; every point of the curve is a scene of its own with a proof that it stands, and where
-    /// it falls one pose is proved to stand and the next to fall. Joints that slide go on under dry
-    /// friction. Exit code 0 if it stands through the whole movement, 1 if it falls, 3 if that stays
-    /// open.
+    /// Supports follow imposed movements slowly. At the start the blocks push them with the least
+    /// possible force. The motion is followed with finite rotations from hinge to hinge, and every
+    /// point of the curve is a scene with its own proof that it stands. Where it falls, one pose is
+    /// proved to stand and the next to fall. Sliding joints follow dry friction. Exit code 0 if it
+    /// stands through the whole movement, 1 if it falls, 3 if undecided.
     Settle(Settle),
-    /// How does the load factor fall as it moves?
+    /// How does the load factor fall as the structure displaces?
     ///
-    /// The live load pushes the structure over, and the way of a point of it is the parameter: at
-    /// each value the load factor is that of the displaced scene, in a bracket (the capacity curve),
-    /// down to where it vanishes. Where the motion turns back it says so, and goes on at the same
-    /// value. Joints that slide go on under dry friction. Exit code 0 if the load factor vanishes
-    /// on the way, 1 if it falls before, 3 if that stays open.
+    /// The live load pushes the structure over, and the displacement of one of its points is the
+    /// parameter. At each value the bracket of the load factor of the displaced scene is computed
+    /// (the capacity curve), until the load factor vanishes. If the motion reverses, the answer
+    /// reports it and continues at the same value. Sliding joints follow dry friction. Exit code 0
+    /// if the load factor vanishes along the curve, 1 if the structure falls before, 3 if
+    /// undecided.
     Push(Push),
-    /// Under an earthquake: at what acceleration does it start to move, and what then?
+    /// At what earthquake acceleration does a mechanism start, and what follows?
     ///
-    /// All weights push towards a direction: α0 is the share of them at which the worst mechanism starts,
-    /// proved on both sides, and with the mass that takes part it gives the acceleration a0 of the
-    /// kinematic analysis of NTC 2018 (Circolare 7/2019, C8.7.1.2.1). The motion is followed with finite
-    /// rotations, every point of the capacity curve with a proof, down to where it vanishes; the limit
-    /// states SLV and SLC lie at 0.4 and 0.6 of that. With a "site" in the scene, both are held
-    /// against its spectra. Exit code 0 if α0 is found, 1 if it is below --require, the scene does not
-    /// stand by itself or the site demands more, 3 if that stays open.
+    /// All weights push towards a direction. α0 is the share of them at which the governing
+    /// mechanism starts, proved on both sides. With the participating mass it gives the
+    /// acceleration a0 of the kinematic analysis of NTC 2018 (Circolare 7/2019, C8.7.1.2.1). The
+    /// motion is followed with finite rotations until the capacity curve vanishes, every point with
+    /// a proof. The limit states SLV and SLC lie at 0.4 and 0.6 of the displacement where it
+    /// vanishes. If the scene has a "site", both are verified against its spectra. Exit code 0 if
+    /// α0 is found, 3 if undecided. Exit code 1 if α0 is below --require, the scene does not stand
+    /// by itself, or the site demands more.
     Kinematic(Kinematic),
-    /// Does every stage of its construction stand, and how safely?
+    /// Does every stage of construction stand, and with what margin?
     ///
-    /// The scene is all that ever stands; its "stages" add, remove, hold and release blocks, members
-    /// and loads, centring among them. Every stage is answered with its proof; where it stands, with
-    /// the load factor of its live load, or else the least tilt, and with the least forces on what it
-    /// holds. Exit code 0 if every stage stands, 1 if one does not, 3 if that stays open.
+    /// The scene holds everything that ever stands. Its "stages" add, remove, hold and release
+    /// blocks, members and loads, centring among them. Every stage is answered with its proof. A
+    /// stage that stands also has the load factor of its live load, or else the least tilt, and the
+    /// least forces on what it holds. Exit code 0 if every stage stands, 1 if one does not, 3 if
+    /// undecided.
     Stages(Stages),
-    /// Which single blocks may be taken out with everything left standing?
+    /// Which single blocks may be removed without a collapse?
     ///
-    /// Every free block is taken out by itself, and what is left has its own verdict and proof.
-    /// Pictures show by colour what may go. Exit code 0 if some block can be taken out, 1 if none
-    /// can, 3 if that stays open.
+    /// Each free block is removed on its own, and the remaining blocks get their own verdict and
+    /// proof. Pictures show removable blocks by colour. Exit code 0 if some block can be removed, 1
+    /// if none can, 3 if undecided.
     Without(Without),
-    /// What forces and displacements follow from the stiffness of its joints?
+    /// What forces and displacements follow from the stiffness of the joints?
     ///
-    /// Joints with a "normal_stiffness" yield as springs that cannot pull, spheres of materials with
-    /// "young" and "poisson" by Hertz and Mindlin, friction by Coulomb's law, ties, struts, bars and
-    /// tendons by their "stiffness". The state under the dead
-    /// load is one step from nothing; along the live load steps end where a joint opens or slides, up to
-    /// the load factor of that path. The forces prove that it stands, and balance and the conditions
-    /// of Signorini and Coulomb are printed with what is left of each. Exit code 0 if a state is found
-    /// and the path followed to its end, 1 if it falls or the load factor is below --require, 3 if that
-    /// stays open.
+    /// Joints with a "normal_stiffness" are springs that cannot pull. Spheres of materials with
+    /// "young" and "poisson" follow Hertz and Mindlin, friction follows Coulomb's law, and ties,
+    /// struts, bars and tendons have their "stiffness". The state under the dead load is computed
+    /// in one step from the unloaded state. Along the live load, steps end where a joint opens or
+    /// slides, up to the load factor of that path. The forces prove that it stands. The equilibrium
+    /// error and the errors of the conditions of Signorini and Coulomb are printed. Exit code 0 if
+    /// a state is found and the path followed to its end, 1 if it falls or the load factor is below
+    /// --require, 3 if undecided.
     State(State),
-    /// What happens in time, and does the verdict say the same?
+    /// What happens in time, and does it agree with the verdict?
     ///
-    /// A rigid-body engine runs the scene under its dead loads, which grow from nothing without any
-    /// pre-stress: a second opinion that shares nothing with the verdict but the blocks and where
-    /// they touch. It proves nothing; near a limit (3 % with fast steps, 1 % with fine ones) it may
-    /// err. Exit code 0 if it stands, 1 if it falls or is proved to, 3 if that stays open.
+    /// A rigid-body engine runs the scene under its dead loads, which grow from zero without any
+    /// self-stress. It is a second opinion that shares only the blocks and their contacts with the
+    /// verdict. The outcome is computed, not proved; near a limit (3 % with fast steps, 1 % with
+    /// fine ones) it may be wrong. Exit code 0 if it stands, 1 if it falls or is proved to fall, 3
+    /// if undecided.
     Simulate(Simulate),
     /// Error against run time, per method, on scenes with known answers.
     ///
-    /// Each method runs over its knob (the engine's tolerance, facets of friction pyramids, number
-    /// of verdicts, time steps); medians of repeated runs. With --extreme, some two thousand stiff
-    /// and extreme scenes with closed forms instead: exit code 1 if any answer is wrong.
+    /// Each method runs over its setting (the engine's tolerance, facets of friction pyramids,
+    /// number of verdicts, time steps); times are medians of repeated runs. With --extreme it runs
+    /// some two thousand stiff and extreme scenes with closed forms instead: exit code 1 if any
+    /// answer is wrong.
     Study(Study),
     /// Make a scene from a template.
     ///
-    /// Starts from sensible values; `key=value` changes them, with dots into nested values and JSON
-    /// on the right: `voussoir generate arch voussoirs=31 thickness=0.6`. A key set to `null` is
-    /// left out. `voussoir generate arch --help` lists the keys of an arch.
+    /// The template has default values; `key=value` changes them, with dots into nested values and
+    /// JSON on the right: `voussoir generate arch voussoirs=31 thickness=0.6`. A key set to `null`
+    /// is omitted. `voussoir generate arch --help` lists the keys of an arch.
     #[command(disable_help_flag = true)]
     Generate(Generate),
     /// Make a scene from files of other programs: COMPAS JSON, OBJ, PLY, STL.
     ///
-    /// What was assumed or left out is said on standard error. Exit code 0 if a question about the
-    /// scene can be answered, 1 if not, 3 if mistakes were not looked for to the end.
+    /// Assumptions and omissions are reported on standard error. Exit code 0 if questions about the
+    /// scene can be answered, 1 if not, 3 if the search for mistakes did not finish.
     Import(Import),
-    /// Verify a saved result from its scene (proofs without a solver), or look for mistakes in a
-    /// scene.
+    /// Verify a saved result from its scene, or look for mistakes in a scene.
     ///
-    /// A result is verified from the scene inside it, or from --scene: forces are added up block by
-    /// block, powers of the mechanism joint by joint, and every word of the answer is compared.
-    /// Exit code 0 if it is proved, 1 if it is refuted, 3 if it claims nothing or
-    /// what no theorem says could not be computed again. Of a scene, near
+    /// A result is verified from the scene inside it, or from --scene, and proofs need no solver.
+    /// Forces are added up block by block, powers of the mechanism joint by joint, and every word
+    /// of the answer is compared. Exit code 0 if it is proved, 1 if it is refuted, 3 if it claims
+    /// nothing or if a computed, unproved part could not be computed again. For a scene, near
     /// misses, overlaps, loose blocks and mistakes of units are listed. Exit code 0 if there is
     /// none, 1 otherwise. Pictures show what is proved, or the scene.
     Check(Check),
-    /// Ask a question of many scenes that differ in a few numbers or words.
+    /// Ask one question of many scenes that differ in a few numbers or words.
     ///
     /// The plan names a scene, a question and the numbers or words that vary, by JSON pointer, on a
-    /// grid or sampled. Every row is appended to a file as it ends; the same command takes it up again
-    /// after a kill at any point. Rows are the same whatever the threads. Exit code 0 if
-    /// every row has an answer, 3 if one is undecided, or its scene failed (it holds the error).
+    /// grid or sampled. Every row is appended to a file when it is finished; after an interruption
+    /// at any point, the same command resumes. Rows do not depend on the number of threads. Exit
+    /// code 0 if every row has an answer, 3 if one is undecided or its scene failed (the row holds
+    /// the error).
     Sweep(Sweep),
-    /// Show the answer in a browser while the scene is worked on.
+    /// Show the answer in a browser while the scene is edited.
     ///
-    /// Prints the address of a page that only this machine reaches, with a token in it, and answers
-    /// there until it is interrupted (Ctrl-C). The page follows the file: on every save by any
-    /// program it asks again. Numbers of the scene have sliders, loads can be dragged, and questions
-    /// are tabs; what is changed there is written to a new file only when that is asked for.
+    /// Prints the address of a page, with a token in it, that only this machine can reach. It
+    /// serves the page until it is interrupted (Ctrl-C). The page follows the file and answers
+    /// again whenever any program saves it. Numbers of the scene have sliders, loads can be
+    /// dragged, and questions are tabs. Changes made on the page are written to a new file only on
+    /// request.
     Open(Open),
-    /// Print the JSON Schema of scenes, or of sweep plans.
+    /// Print the JSON Schema of scenes, sweep plans, results or models.
     Schema(Schema),
-    /// Print what a shell needs to complete verbs and options.
+    /// Print the completion script for a shell.
     ///
     /// bash: `voussoir completions bash > ~/.local/share/bash-completion/completions/voussoir`
     Completions(Completions),
     /// Print a manual page, or write all of them.
     ///
     /// `voussoir man limit | man -l -` shows one; `voussoir man --folder ~/.local/share/man/man1`
-    /// keeps them all.
+    /// stores them all.
     Man(Man),
 }
 
@@ -247,21 +256,23 @@ pub struct Assess {
     pub pictures: Pictures,
     #[command(flatten)]
     pub tables: Tables,
-    /// Ask about the worst case within ranges: NAME=LOW..HIGH with commas between, where NAME is
-    /// `friction` (of all joints without an exception), `density` (every material by itself),
-    /// `density:MATERIAL`, `load` (factor on the dead loads) or a JSON pointer. Why that case is
-    /// the worst is said.
+    /// Find the worst case within ranges: NAME=LOW..HIGH, separated by commas.
+    ///
+    /// NAME is `friction` (all joints without an override), `density` (each material on its own),
+    /// `density:MATERIAL`, `load` (factor on the dead loads) or a JSON pointer. The answer states
+    /// why that case is the worst.
     #[arg(long, value_name = "RANGES", value_delimiter = ',')]
     pub worst: Vec<Between>,
-    /// Run the scene in time as well, and compare (see `voussoir simulate`).
+    /// Simulate the scene in time as well, and compare (see `voussoir simulate`).
     #[arg(long)]
     pub simulate: bool,
-    /// Run the scene in time where the verdict is conditional or undecided.
+    /// Simulate the scene in time if the verdict is conditional or undecided.
     #[arg(long, conflicts_with = "simulate")]
     pub thorough: bool,
-    /// Threads of the simulation; 0 for as many as there are processors. The answer does not depend
-    /// on them.
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(0..=256))]
+    /// Threads of the simulation; 0 for one per processor.
+    ///
+    /// The answer does not depend on them.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(0..=256), help_heading = "Solver and limits")]
     pub threads: u16,
 }
 
@@ -273,32 +284,36 @@ pub struct Limit {
     pub pictures: Pictures,
     #[command(flatten)]
     pub tables: Tables,
-    /// The load factor that is needed: exit code 1 if the greatest one, with dry friction too
-    /// unless --law associative, is below, 3 if that stays open.
+    /// Required load factor: exit code 1 if the greatest is lower, 3 if undecided.
+    ///
+    /// Unless `--law associative` is given, the load factor under dry friction must reach it too.
     #[arg(long, value_name = "LAMBDA", allow_negative_numbers = true, value_parser = finite)]
     pub require: Option<f64>,
-    /// Drive the train of the scene over the bridge in place of its live load: a load factor for
-    /// every position, both directions of travel, and more positions around the least, which is the
-    /// answer.
+    /// Drive the train of the scene over the bridge in place of its live load.
+    ///
+    /// Every position gets a load factor, in both directions of travel, with more positions around
+    /// the least, which is the answer.
     #[arg(long)]
     pub moving: bool,
-    /// With --moving: draw the load factor against the place of the train to this file.
-    #[arg(long, value_name = "FILE", value_parser = output(Written::Svg))]
+    /// With --moving: draw the load factor against the position of the train (SVG).
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Svg), help_heading = "Pictures")]
     pub chart: Option<PathBuf>,
-    /// With --moving: write every position with its load factor to this file, comma-separated.
-    #[arg(long, value_name = "FILE", value_parser = output(Written::Csv))]
+    /// With --moving: write every position with its load factor (CSV).
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Csv), help_heading = "Output")]
     pub positions: Option<PathBuf>,
-    /// With --moving: with dry friction the value at every position, and not at all but the worst
-    /// only that it is not less.
+    /// With --moving: compute the load factor with dry friction at every position.
+    ///
+    /// By default it is computed at the worst position only; the others are shown to be no lower.
     #[arg(long)]
     pub every_value: bool,
-    /// Do not ask as well whether it stands without its live load.
+    /// Skip the check that it stands without its live load.
     #[arg(long)]
     pub skip_dead: bool,
-    /// Ask about the worst case within ranges: NAME=LOW..HIGH with commas between, where NAME is
-    /// `friction` (of all joints without an exception), `density` (every material by itself),
-    /// `density:MATERIAL`, `load` (factor on the dead loads) or a JSON pointer. Why that case is
-    /// the worst is said.
+    /// Find the worst case within ranges: NAME=LOW..HIGH, separated by commas.
+    ///
+    /// NAME is `friction` (all joints without an override), `density` (each material on its own),
+    /// `density:MATERIAL`, `load` (factor on the dead loads) or a JSON pointer. The answer states
+    /// why that case is the worst.
     #[arg(long, value_name = "RANGES", value_delimiter = ',')]
     pub worst: Vec<Between>,
 }
@@ -311,17 +326,20 @@ pub struct Tilt {
     pub pictures: Pictures,
     #[command(flatten)]
     pub tables: Tables,
-    /// Tip towards this direction (its part across gravity); may be given several times.
+    /// Tip towards this direction; may be given several times.
+    ///
+    /// Only its part across gravity counts.
     #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true, value_parser = direction)]
     pub toward: Vec<[f64; 3]>,
     /// Tip towards this many directions, evenly spread, the first along x.
     #[arg(long, value_name = "N", default_value_t = DIRECTIONS, conflicts_with = "toward", value_parser = clap::value_parser!(u16).range(1..=3600))]
     pub all: u16,
-    /// The tilt that is needed, in degrees: exit code 1 if the least one, with dry friction too
-    /// unless --law associative, is below, 3 if that stays open.
+    /// Required tilt in degrees: exit code 1 if the least is lower, 3 if undecided.
+    ///
+    /// Unless `--law associative` is given, the tilt under dry friction must reach it too.
     #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = finite)]
     pub require: Option<f64>,
-    /// Do not ask as well whether it stands when level.
+    /// Skip the check that it stands when level.
     #[arg(long)]
     pub skip_dead: bool,
 }
@@ -332,8 +350,8 @@ pub struct Without {
     pub common: Common,
     #[command(flatten)]
     pub pictures: Pictures,
-    /// Write the blocks to this file, comma-separated, a row a block.
-    #[arg(long, value_name = "FILE", value_parser = output(Written::Csv))]
+    /// Write the blocks to this file, one per row (CSV).
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Csv), help_heading = "Output")]
     pub csv: Option<PathBuf>,
 }
 
@@ -344,10 +362,10 @@ pub struct Critical {
     /// JSON pointer of the number to vary.
     #[arg(long, value_name = "POINTER")]
     pub vary: String,
-    /// The range.
+    /// Range of values to search.
     #[arg(long, required = true, num_args = 2, value_names = ["A", "B"], allow_negative_numbers = true, value_parser = finite)]
     pub between: Vec<f64>,
-    /// Scan so many values, both ends among them [default: 33; of a count every one].
+    /// Number of values to scan, both ends included [default: 33; every value of a count].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=100_000))]
     pub scan: Option<u32>,
     /// Scan in steps of at most this size.
@@ -363,16 +381,18 @@ pub struct Thrust {
     pub pictures: Pictures,
     #[command(flatten)]
     pub tables: Tables,
-    /// The support; the first one that carries a free block where none is named.
+    /// Support to ask about; by default the first that carries a free block.
     #[arg(long, value_name = "ID")]
     pub support: Option<String>,
-    /// The direction of the thrust (its part across gravity), outwards from the blocks' centre of
-    /// mass where none is given; with `--member` that of a dowel's shear, in the plane of a plane
-    /// scene where none is given.
+    /// Direction of the thrust; by default outwards from the blocks' centre of mass.
+    ///
+    /// Only its part across gravity counts. With `--member` it is the direction of a dowel's shear,
+    /// by default in the plane of a plane scene.
     #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true, value_parser = direction)]
     pub direction: Option<[f64; 3]>,
-    /// The force in this member of the scene (a tie, strut, bar, tendon, dowel, `strip/1`, soil or
-    /// grip), least and greatest, in place of a thrust.
+    /// Ask for the least and the greatest force in this member in place of a thrust.
+    ///
+    /// The member is a tie, strut, bar, tendon, dowel, strip (`strip/1`), soil or grip.
     #[arg(long, value_name = "ID", conflicts_with = "support")]
     pub member: Option<String>,
 }
@@ -383,53 +403,59 @@ pub struct Common {
     /// The scene (JSON), `-` for standard input.
     pub scene: PathBuf,
     /// Print the result as one JSON object and nothing else.
-    #[arg(long)]
+    #[arg(long, help_heading = "Output")]
     pub json: bool,
-    /// Write the result, with the scene and its proof, to this file for `voussoir check`.
-    #[arg(long, value_name = "FILE", value_parser = output(Written::Json))]
+    /// Write the result with its scene and proof to this file, for `voussoir check`.
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Json), help_heading = "Output")]
     pub save: Option<PathBuf>,
-    /// Write the answer as a page for a browser, with a picture, to this file (HTML, without any
-    /// connection to a network).
-    #[arg(long, value_name = "FILE", value_parser = output(Written::Html))]
+    /// Write the answer with a picture to this file, as a page for a browser (HTML).
+    ///
+    /// The page needs no network connection.
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Html), help_heading = "Output")]
     pub report: Option<PathBuf>,
-    /// Solve the scene in full, without leaving out what symmetry or missing friction make
-    /// needless.
-    #[arg(long)]
+    /// Solve the scene in full, without reductions.
+    ///
+    /// By default symmetry and missing friction reduce the work; nothing is neglected.
+    #[arg(long, help_heading = "Solver and limits")]
     pub keep_all: bool,
-    /// How joints slide: `coulomb` (dry friction) also asks whether the loads produce the forces
-    /// that hold the scene, and for the load factor of joints that slide without opening (many
-    /// convex programs: on large walls minutes); `associative` only whether such forces exist, and
-    /// for the bound.
-    #[arg(long, value_enum, value_name = "LAW", default_value_t = Law::Coulomb, hide_possible_values = true)]
+    /// How joints slide: `coulomb` (dry friction) or `associative`.
+    ///
+    /// `coulomb` also determines whether the loads produce the forces that hold the scene, and the
+    /// load factor of joints that slide without opening. It solves many convex programs, which
+    /// takes minutes on large walls. `associative` determines only whether such forces exist, and
+    /// the bound.
+    #[arg(long, value_enum, value_name = "LAW", default_value_t = Law::Coulomb, hide_possible_values = true, help_heading = "Solver and limits")]
     pub law: Law,
-    /// Stop trying after this many seconds, counted from the start, and answer with the best
-    /// bracket so far. Exit code 3 if that decides nothing.
-    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = positive)]
+    /// Stop after this many seconds from the start, with the best bracket so far.
+    ///
+    /// Exit code 3 if that bracket decides nothing.
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = positive, help_heading = "Solver and limits")]
     pub time_limit: Option<f64>,
     #[command(flatten)]
     pub outside: Outside,
-    /// Lists in full, and every attempt at the program.
-    #[arg(short, long)]
+    /// Print lists in full, and every attempt of the solver.
+    #[arg(short, long, help_heading = "Output")]
     pub verbose: bool,
-    /// The first line only.
-    #[arg(short, long, conflicts_with = "verbose")]
+    /// Print the first line only.
+    #[arg(short, long, conflicts_with = "verbose", help_heading = "Output")]
     pub quiet: bool,
 }
 
 /// When what has no answer but a yes or a no has to end.
 #[derive(Debug, Args)]
 pub struct TimeLimit {
-    /// End after this many seconds, counted from the start, with exit code 3 and what is known by
-    /// then.
-    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = positive)]
+    /// Stop after this many seconds from the start, with exit code 3.
+    ///
+    /// What is known by then is printed.
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = positive, help_heading = "Solver and limits")]
     pub time_limit: Option<f64>,
 }
 
 /// What a scene may read beside itself.
 #[derive(Debug, Args)]
 pub struct Outside {
-    /// Follow paths of meshes in the scene that leave its folder.
-    #[arg(long)]
+    /// Follow mesh paths in the scene that lead outside its folder.
+    #[arg(long, help_heading = "Solver and limits")]
     pub allow_outside: bool,
 }
 

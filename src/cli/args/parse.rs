@@ -38,7 +38,7 @@ impl Written {
             Self::Json => "JSON",
             Self::Lines => "JSON lines",
             Self::Vtk => "a file for ParaView (VTK XML)",
-            Self::Gltf => "a model for architects' programs (glTF)",
+            Self::Gltf => "a 3D model (glTF)",
             Self::Obj => "a mesh (OBJ)",
             Self::Grains => "grains as a table (CSV), points (VTK XML) or a dump of LIGGGHTS",
             Self::Folder => "several files into a folder",
@@ -85,7 +85,7 @@ fn fits(name: OsString, what: Written) -> Result<PathBuf, String> {
     match ending.filter(|e| known(e) && !what.endings().contains(&e.as_str())) {
         None => Ok(path),
         Some(ending) => Err(format!(
-            "this option writes {}, and .{ending} is another format; {}",
+            "this option writes {}, but .{ending} is another format; {}",
             what.noun(),
             remedy(&path, &ending, what)
         )),
@@ -131,7 +131,7 @@ pub fn finite(text: &str) -> Result<f64, String> {
 
 pub fn word(text: &str) -> Result<String, String> {
     let ok = !text.is_empty() && !text.chars().any(|c| c.is_whitespace() || c.is_control());
-    ok.then(|| text.to_string()).ok_or_else(|| "not one word".into())
+    ok.then(|| text.to_string()).ok_or_else(|| "not a single word without spaces".into())
 }
 
 pub fn one_line(text: &str) -> Result<String, String> {
@@ -166,7 +166,7 @@ pub fn friction(text: &str) -> Result<Friction, String> {
 }
 
 pub fn restitution(text: &str) -> Result<f64, String> {
-    share(text).map_err(|_| "not a restitution from 0 to 1".into())
+    share(text).map_err(|_| "not a coefficient of restitution from 0 to 1".into())
 }
 
 pub fn pulse(text: &str) -> Result<(String, Pulse), String> {
@@ -184,10 +184,10 @@ pub fn scales(text: &str) -> Result<(f64, f64), String> {
 
 pub fn direction(text: &str) -> Result<[f64; 3], String> {
     let parts: Result<Vec<f64>, String> = text.split(',').map(finite).collect();
-    match parts.map_err(|_| "not two or three numbers with commas between, such as 1,0")?[..] {
+    match parts.map_err(|_| "not two or three numbers separated by commas, such as 1,0")?[..] {
         [x, y] => Ok([x, y, 0.0]),
         [x, y, z] => Ok([x, y, z]),
-        _ => Err("not two or three numbers with commas between, such as 1,0".into()),
+        _ => Err("not two or three numbers separated by commas, such as 1,0".into()),
     }
 }
 
@@ -218,7 +218,7 @@ fn block_and_numbers(text: &str) -> Option<(String, Vec<f64>)> {
 }
 
 pub fn support_move(text: &str) -> Result<SupportMove, String> {
-    let wrong = "not supports with three or six numbers or a way outwards, such as right=0.1,0,0 or springer_*=out:0.05";
+    let wrong = "not a support with three or six numbers or an outward displacement, such as right=0.1,0,0 or springer_*=out:0.05";
     if let Some((support, out)) = text.rsplit_once("=out:").filter(|(id, _)| !id.is_empty()) {
         return Ok(SupportMove::outwards(support, finite(out).map_err(|_| wrong)?));
     }
@@ -233,7 +233,7 @@ pub fn support_move(text: &str) -> Result<SupportMove, String> {
 }
 
 pub fn control(text: &str) -> Result<(String, [f64; 3]), String> {
-    let wrong = "not a block with a point of it, such as v03=0.2,0,1.1";
+    let wrong = "not a block with one of its points, such as v03=0.2,0,1.1";
     match block_and_numbers(text) {
         Some((id, numbers)) => match numbers[..] {
             [x, y, z] => Ok((id, [x, y, z])),

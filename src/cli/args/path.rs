@@ -12,18 +12,22 @@ use voussoir::analysis::SupportMove;
 pub struct Settle {
     #[command(flatten)]
     pub common: Common,
-    /// How supports move while the parameter goes from 0 to 1: their way in m and their turn about
-    /// their centres of mass in degrees (axis × angle), or `out:D`, D metres outwards: horizontally
-    /// away from the mean of the centres of mass of all supports that the name fits. `*` stands for
-    /// any letters of a name.
+    /// Imposed movement of a support while the parameter goes from 0 to 1.
+    ///
+    /// DX,DY,DZ is the displacement in m and RX,RY,RZ the rotation about the centre of mass in
+    /// degrees (axis × angle). `out:D` moves the support D metres outwards: horizontally away from
+    /// the mean of the centres of mass of all supports that the name matches. `*` stands for any
+    /// letters of a name.
     #[arg(long = "move", value_name = "SUPPORT=DX,DY,DZ[,RX,RY,RZ]|out:D", required_unless_present = "cracks", allow_hyphen_values = true, value_parser = support_move)]
     pub moves: Vec<SupportMove>,
-    /// The other way round: which movement of which support explains these cracks, in a file like
-    /// { "cracks": [ { "between": ["v03", "v04"], "side": "intrados", "width": 0.004 } ] }. Sides are
-    /// "intrados", "extrados" or a point near them; widths, m, may be left out.
+    /// Find the imposed movement of a support that explains the cracks in this file.
+    ///
+    /// The file looks like { "cracks": [ { "between": ["v03", "v04"], "side": "intrados", "width":
+    /// 0.004 } ] }. Sides are "intrados", "extrados" or a point near the crack. Widths, in m, are
+    /// optional.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["moves", "at", "csv", "chart", "from", "keep", "svg", "vtk", "save", "report"])]
     pub cracks: Option<PathBuf>,
-    /// Shares of the movement that become points of the curve, beside others.
+    /// Additional shares of the movement to report.
     #[arg(long, value_name = "S1,S2,…", value_delimiter = ',', value_parser = finite)]
     pub at: Vec<f64>,
     #[command(flatten)]
@@ -34,14 +38,16 @@ pub struct Settle {
 pub struct Push {
     #[command(flatten)]
     pub common: Common,
-    /// The point of a free block, m, whose way is the parameter.
+    /// Point of a free block, m, whose displacement is the parameter.
     #[arg(long, value_name = "BLOCK=X,Y,Z", allow_hyphen_values = true, value_parser = control)]
     pub control: (String, [f64; 3]),
-    /// The direction in which its way is measured.
+    /// Direction in which the displacement is measured.
     #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true, value_parser = direction)]
     pub toward: [f64; 3],
-    /// Ways of the control point, m, that become the points of the curve, beside its start, its events
-    /// and its end; without them the points follow its bends.
+    /// Displacements of the control point to report, in m.
+    ///
+    /// They are reported in addition to the start, the events and the end. By default the points
+    /// follow the bends of the curve.
     #[arg(long, value_name = "V1,V2,…", value_delimiter = ',', value_parser = finite)]
     pub at: Vec<f64>,
     #[command(flatten)]
@@ -51,19 +57,22 @@ pub struct Push {
 /// The curve as a file.
 #[derive(Debug, Args)]
 pub struct Curve {
-    /// Write the curve to this file, comma-separated, a row a point.
-    #[arg(long, value_name = "FILE", value_parser = output(Written::Csv))]
+    /// Write the curve to this file, one point per row (CSV).
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Csv), help_heading = "Output")]
     pub csv: Option<PathBuf>,
     /// Draw the curve to this file (SVG).
-    #[arg(long, value_name = "FILE", value_parser = output(Written::Svg))]
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Svg), help_heading = "Pictures")]
     pub chart: Option<PathBuf>,
-    /// Begin at the last pose of this result, which was saved for the same scene and motion: how much
+    /// Continue from the last pose of this result.
+    ///
+    /// The result must have been saved for the same scene and motion. The answer is how much
     /// further it goes.
     #[arg(long, value_name = "RESULT")]
     pub from: Option<PathBuf>,
-    /// Keep every point in this file as soon as it is proved; the same command takes it up again
-    /// after a kill at any point.
-    #[arg(long, value_name = "FILE", value_parser = output(Written::Lines))]
+    /// Checkpoint to this file; run the same command again to resume.
+    ///
+    /// Every point is written as soon as it is proved, so the run may be interrupted at any moment.
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Lines), help_heading = "Output")]
     pub keep: Option<PathBuf>,
     #[command(flatten)]
     pub pictures: Pictures,

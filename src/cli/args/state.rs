@@ -13,30 +13,34 @@ pub struct State {
     pub common: Common,
     #[command(flatten)]
     pub pictures: Pictures,
-    /// The point of a free block, m, whose way along the live load is the curve [default: the centre of
-    /// mass of the block with the greatest live load].
+    /// Point of a free block, m, whose displacement along the live load is the curve.
+    ///
+    /// By default it is the centre of mass of the block with the greatest live load.
     #[arg(long, value_name = "BLOCK=X,Y,Z", allow_hyphen_values = true, value_parser = control)]
     pub control: Option<(String, [f64; 3])>,
-    /// Load factors that become points of the curve, beside others.
+    /// Additional load factors to report.
     #[arg(long, value_name = "L1,L2,…", value_delimiter = ',', value_parser = finite)]
     pub at: Vec<f64>,
-    /// Where joints with an area are integrated: `area`, exactly over the part that is pressed;
-    /// `corners`, at the corners of each joint, as the state under dry friction of the other questions
-    /// has it (three times too stiff against turning).
-    #[arg(long, value_enum, value_name = "WHERE", default_value_t = Quadrature::Area, hide_possible_values = true)]
+    /// How joints with an area are integrated: `area` or `corners`.
+    ///
+    /// `area` integrates exactly over the part in compression. `corners` integrates at the corners
+    /// of each joint, like the state under dry friction in the other questions (three times too
+    /// stiff in rotation).
+    #[arg(long, value_enum, value_name = "WHERE", default_value_t = Quadrature::Area, hide_possible_values = true, help_heading = "Solver and limits")]
     pub quadrature: Quadrature,
-    /// The state under the dead load alone, although there is a live load.
+    /// Compute the state under the dead load alone, even if there is a live load.
     #[arg(long, conflicts_with_all = ["control", "at", "require", "chart"])]
     pub dead_only: bool,
-    /// The load factor that is needed: exit code 1 if that of the path is below.
+    /// Required load factor: exit code 1 if that of the path is lower.
     #[arg(long, value_name = "LAMBDA", allow_negative_numbers = true, value_parser = finite)]
     pub require: Option<f64>,
-    /// Write the curve to this file, comma-separated, a row a point; without a live load the joints, a
-    /// row a joint.
-    #[arg(long, value_name = "FILE", value_parser = output(Written::Csv))]
+    /// Write the curve to this file, one point per row (CSV).
+    ///
+    /// Without a live load it holds the joints, one per row.
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Csv), help_heading = "Output")]
     pub csv: Option<PathBuf>,
-    /// Draw load factor against displacement to this file (SVG).
-    #[arg(long, value_name = "FILE", value_parser = output(Written::Svg))]
+    /// Draw the load factor against the displacement to this file (SVG).
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Svg), help_heading = "Pictures")]
     pub chart: Option<PathBuf>,
 }
 

@@ -20,7 +20,7 @@ pub fn run(args: &Check, terminal: &Terminal) -> anyhow::Result<Exit> {
         .try_for_each(|file| claim::read(file))?;
     let pictures = Pictures::open(&args.pictures, args.tables.csv.as_deref())?;
     if pictures.printed() && args.json {
-        bail!("standard output takes one of --svg, --vtk and --json");
+        bail!("only one of --svg, --vtk and --json can go to standard output");
     }
     let deadline = deadline::of(args.limit.time_limit);
     let (name, bytes) = input::bytes(&args.file)?;
@@ -31,11 +31,11 @@ pub fn run(args: &Check, terminal: &Terminal) -> anyhow::Result<Exit> {
         None if args.scene.is_some() => {
             let error = InputError::at(
                 JsonPath::root(),
-                "not a result: only results are verified against a scene",
+                "not a result: only a result can be verified against a scene",
             );
             Err(InputError {
                 file: Some(name),
-                ..error.hint("save one with --save, or leave --scene out")
+                ..error.hint("save a result with --save, or omit --scene")
             }
             .into())
         }

@@ -39,12 +39,9 @@ pub fn run(
         terminal::print(&report::json::pretty(&VerificationFile::new(&scene.name, &verified))?)?;
     } else if !pictures.printed() || verified.refuted() {
         let file = verified.file.as_ref();
-        terminal.page(&text::verification(
-            &scene.name,
-            file,
-            &verified,
-            terminal.layout(&args.file),
-        ))?;
+        let layout = terminal.layout(&args.file);
+        let page = text::verification(&scene.name, file, &verified, layout);
+        terminal.page(&if args.quiet { page.first_line() } else { page })?;
     }
     Ok(match (verified.refuted(), verified.proved()) {
         (true, _) => Exit::No,

@@ -29,12 +29,9 @@ pub fn run(
     if args.json {
         terminal::print(&report::json::pretty(&Inspection::new(&model).with_train(scene))?)?;
     } else if !pictures.printed() {
-        terminal.page(&text::inspection(
-            &model,
-            scene.train.as_ref(),
-            [&mistakes, &notes],
-            terminal.layout(&args.file),
-        ))?;
+        let layout = terminal.layout(&args.file);
+        let page = text::inspection(&model, scene.train.as_ref(), [&mistakes, &notes], layout);
+        terminal.page(&if args.quiet { page.first_line() } else { page })?;
     }
     Ok(if mistakes.is_empty() { Exit::Yes } else { Exit::No })
 }

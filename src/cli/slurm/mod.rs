@@ -19,7 +19,7 @@ pub fn folder_of(output: &Path) -> PathBuf {
 pub fn say_damaged(damaged: usize) {
     if damaged > 0 {
         terminal::say(&format!(
-            "note: {damaged} damaged or edited lines are left out; their rows count as not done unless another file has them"
+            "note: {damaged} damaged or edited lines are ignored; their rows count as missing unless another file has them"
         ));
     }
 }
@@ -30,7 +30,7 @@ pub fn say_unchecked(unchecked: usize) {
         let rows =
             if unchecked == 1 { "1 row has".into() } else { format!("{unchecked} rows have") };
         terminal::say(&format!(
-            "note: {rows} no check sum, as older versions wrote them: whether anybody edited them is not known"
+            "note: {rows} no checksum, as written by older versions: later edits cannot be detected"
         ));
     }
 }

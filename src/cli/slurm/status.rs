@@ -31,7 +31,7 @@ pub fn run(args: &SweepStatus, terminal: &Terminal) -> anyhow::Result<Exit> {
             }
             Err(e) => {
                 terminal::say(&format!(
-                    "note: what the tasks do is not known: {}",
+                    "note: the state of the tasks is unknown: {}",
                     terminal::words(&e)
                 ));
                 Vec::new()

@@ -39,10 +39,10 @@ pub fn run(
     }
     if let Some(job) = Job::read(&path)?.map_or(Ok(None), |job| job.alive())? {
         if args.restart {
-            bail!("job {job} is still working on {}; `scancel {job}` stops it", path.display());
+            bail!("job {job} is still computing {}; stop it with `scancel {job}`", path.display());
         }
         terminal::say(&format!(
-            "note: job {job} is still working on these rows: nothing is submitted"
+            "note: job {job} is still computing these rows; no new job is submitted"
         ));
         return watch::run(
             &Folder::create(&path, &sweep.header(Shard::ALL))?,
@@ -109,7 +109,7 @@ fn submitted(
         if !args.summary.quiet {
             let (many, rows, partition) = (script.array.len(), missing.len(), &partition.name);
             terminal::say(&format!(
-                "job {number}: {rows} rows in {many} tasks on partition {partition}, written to {}\nnote: this program may be ended: `voussoir sweep --attach {}` takes over, `scancel {number}` stops the job",
+                "job {number}: {rows} rows in {many} tasks on partition {partition}, written to {}\nnote: this program may be stopped; `voussoir sweep --attach {}` continues to watch, `scancel {number}` stops the job",
                 path.display(),
                 quoted(&output.display().to_string())
             ));
@@ -151,8 +151,9 @@ fn script(
     tasks: usize,
     missing: &[usize],
 ) -> anyhow::Result<Script> {
-    let program = called::path().context("the path of this program is not known")?;
-    let program = program.to_str().context("the path of this program is no text")?.to_string();
+    let program = called::path().context("the path of this program is unknown")?;
+    let program =
+        program.to_str().context("the path of this program is not valid text")?.to_string();
     let mut open = vec![false; tasks];
     missing.iter().for_each(|row| open[row % tasks] = true);
     Ok(Script {

@@ -9,7 +9,7 @@ pub fn run(args: &Task) -> anyhow::Result<Exit> {
     let start = Instant::now();
     let seen = || {
         format!(
-            "this node finds no sweep in {}; it has to see the folder under the same path",
+            "this node finds no sweep in {}; it must see the folder under the same path",
             args.folder.display()
         )
     };
@@ -25,7 +25,7 @@ pub fn run(args: &Task) -> anyhow::Result<Exit> {
     let done = run_in(&sweep, &folder, &name, &options, &|_| {})?;
     let seconds = start.elapsed().as_secs_f64();
     terminal::print(&format!(
-        "shard {}: {done} rows in {seconds:.1} s, the others of it were there\n",
+        "shard {}: {done} rows in {seconds:.1} s, the others were already done\n",
         args.shard
     ))?;
     Ok(Exit::Yes)

@@ -35,7 +35,7 @@ const ARRIVAL: Duration = Duration::from_secs(3);
 /// `voussoir sweep --attach OUT`
 pub fn attach(output: &Path, summary: &Summary, terminal: &Terminal) -> anyhow::Result<Exit> {
     let folder = Folder::open(&folder_of(output))
-        .with_context(|| format!("nothing was submitted for {}", output.display()))?;
+        .with_context(|| format!("no job was submitted for {}", output.display()))?;
     slurm::require_commands()?;
     Sink::open(Some(output))?;
     run(&folder, output, summary, &Sinks::open(summary)?, terminal)
@@ -69,7 +69,7 @@ pub fn run(
     let Some(first) = missing.first() else { return Ok(exit) };
     let log = folder.path.join("log");
     terminal::say(&format!(
-        "note: {} of {} rows are missing, the first is row {first}, and no task is left; what the tasks said is in {}\nnote: the command with the plan and --slurm submits the missing rows again",
+        "note: {} of {} rows are missing, the first is row {first}, and no task is left; the logs of the tasks are in {}\nnote: run the command with the plan and --slurm again to submit the missing rows",
         missing.len(),
         folder.header.rows,
         log.display()
@@ -119,9 +119,8 @@ fn rows(folder: &Folder, job: &Job, quiet: bool) -> anyhow::Result<Gathered> {
                     }
                 }
                 Err(e) if answered.elapsed() > PATIENCE => return Err(e),
-                Err(e) if !quiet => bar.suspend(|| {
-                    terminal::say(&format!("note: {}; asking again", terminal::words(&e)))
-                }),
+                Err(e) if !quiet => bar
+                    .suspend(|| terminal::say(&format!("note: {}; retrying", terminal::words(&e)))),
                 Err(_) => {}
             }
         }

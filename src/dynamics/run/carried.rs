@@ -85,7 +85,7 @@ pub fn carry(
         return Err(refuse(finding.text));
     }
     if !(carriage.pace > 0.0 && carriage.pace.is_finite()) {
-        return Err(refuse(format!("a pace must be > 0, got {}", carriage.pace)));
+        return Err(refuse(format!("the pace must be > 0, got {}", carriage.pace)));
     }
     let loads = Loads::of(model);
     let units = Units::of(&model.assembly, &loads.total)

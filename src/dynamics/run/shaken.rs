@@ -127,8 +127,8 @@ pub fn shake(
         return Err(refuse(finding.text));
     }
     if ground.motion.jumps.iter().any(|j| j.when == When::FirstLanding) {
-        return Err(refuse("a jump that waits for a landing is known to mechanisms only".into())
-            .hint("`voussoir kinematic` takes it"));
+        return Err(refuse("a jump that waits for a landing is for mechanisms only".into())
+            .hint("use `voussoir kinematic`"));
     }
     let loads = Loads::of(model);
     let units = Units::of(assembly, &loads.total)
@@ -163,7 +163,7 @@ fn massless(model: &Model, burdens: &[Burden]) -> Option<Finding> {
     };
     let count = assembly.free().filter(loaded).count();
     let text = format!(
-        "{count} blocks carry dead loads that are no weights: they act as forces, and the ground pushes no masses of theirs"
+        "{count} blocks carry dead loads that are not weights: they act as forces without mass"
     );
     (count > 0).then(|| Finding::new(FindingCode::LeftOut, text))
 }

@@ -34,7 +34,7 @@ impl Shelf {
     pub fn new(shapes: Assembly) -> Result<Self, InputError> {
         let refused = |what: &str, key: &str, hint: &str| {
             let text =
-                format!("shapes have no {what}: each of them may be there twice or not at all");
+                format!("shapes cannot have {what}: each may be used several times or not at all");
             Err(InputError::at(JsonPath::root().key(key), text).hint(hint.to_string()))
         };
         let weighs = |i: usize| Wrench {
@@ -48,14 +48,18 @@ impl Shelf {
             return refused(
                 "loads",
                 "loads",
-                "remove them; own weight acts, and a margin has its own push",
+                "remove them: own weight always acts, and a margin applies its own load",
             );
         }
         if !shapes.members.is_empty() {
-            return refused("members", "members", "ask about such a scene by itself");
+            return refused("members", "members", "ask about this scene directly");
         }
         if !shapes.given.is_empty() {
-            return refused("interfaces given by hand", "interfaces", "contacts are found");
+            return refused(
+                "interfaces given by hand",
+                "interfaces",
+                "remove them: contacts are detected",
+            );
         }
         if !shapes.joints.by_blocks.is_empty() {
             return refused("joints by their names", "joints", "give joints by material");
@@ -103,13 +107,15 @@ impl Shelf {
     fn one(&self, put: &Put) -> Result<Block, InputError> {
         let root = JsonPath::root();
         let Some(shape) = self.shapes.blocks.get(put.shape) else {
-            let text =
-                format!("shape {} of {} (counted from 0)", put.shape, self.shapes.blocks.len());
-            return Err(InputError::at(root.key("shape"), text).hint("name a shape that there is"));
+            let text = format!(
+                "there is no shape {} among {} (counted from 0)",
+                put.shape,
+                self.shapes.blocks.len()
+            );
+            return Err(InputError::at(root.key("shape"), text).hint("name an existing shape"));
         };
         if !put.at.iter().chain(put.turn.coords.iter()).all(|x| x.is_finite()) {
-            let text =
-                "a place is made of finite numbers, and a turn is a quaternion that is not zero";
+            let text = "must be finite numbers, with a quaternion that is not zero";
             return Err(InputError::at(root.key("pose"), text)
                 .hint("lengths in m; w, x, y, z of the quaternion"));
         }

@@ -70,7 +70,7 @@ impl Stage {
         };
         let all: Vec<Self> = assembly.free().map(without).collect();
         if all.len() < 2 {
-            let text = "there are fewer than two free blocks: nothing is left to stand without one";
+            let text = "there are fewer than two free blocks: removing one leaves nothing to check";
             return Err(InputError::at(JsonPath::root(), text).hint("ask `voussoir assess`"));
         }
         Ok(all)

@@ -78,7 +78,7 @@ pub fn mistake(model: &Model) -> Option<Finding> {
             _ => "If z points down in the drawing: import with --up -z, or turn gravity",
         };
         format!(
-            "The free blocks hang below their supports, which push them the way gravity pulls, towards {}. {remedy}",
+            "The free blocks hang below their supports, which push them in the direction of gravity, {}. {remedy}",
             direction(push)
         )
     } else if up.dot(&push).abs() < LEVEL
@@ -111,12 +111,11 @@ pub fn on_its_side(model: &Model) -> Option<Finding> {
     let carried: f64 =
         interfaces.list.iter().zip(&weights).map(|(f, w)| w * f.frame.n.dot(&up).abs()).sum();
     let text = if interfaces.list.len() >= FEW && carried < CARRIES * total {
-        "All joints stand upright: no block rests on another, so that everything lies on its side. Drawings often have y up: import with --up y".into()
+        "All joints are vertical: no block rests on another, so everything lies on its side. Drawings often have y up: import with --up y".into()
     } else {
         let other = footed(model, up)?;
         format!(
-            "Nothing has a face to stand on below, towards {}, but {} blocks have one in a common plane towards {}: everything lies on its side. \
-             If {} points up in the drawing: import with --up {}",
+            "No block has a face to stand on below, towards {}, but {} blocks have one in a common plane towards {}: everything lies on its side. If {} points up in the drawing: import with --up {}",
             direction(-up),
             other.1,
             direction(-other.0),

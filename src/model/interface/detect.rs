@@ -75,7 +75,7 @@ pub fn detect_until(
     {
         if is_over() {
             let text = format!(
-                "the time was up after {looked_at} pairs of blocks had been looked at for contacts"
+                "time limit reached after {looked_at} pairs of blocks had been checked for contacts"
             );
             return Err(InputError::at(JsonPath::root(), text).hint("allow more time"));
         }
@@ -177,8 +177,13 @@ pub fn detect_until(
 fn law(assembly: &Assembly, a: usize, b: usize) -> Result<JointLaw, InputError> {
     assembly.joints.law(a, b, &assembly.blocks).ok_or_else(|| {
         let (one, other) = (&assembly.blocks[a].id, &assembly.blocks[b].id);
-        InputError::at(JsonPath::root(), format!("blocks {one:?} and {other:?} touch, and nothing says what friction acts between them"))
-            .hint("give joints.default.friction, or a joint override for these blocks or their materials")
+        InputError::at(
+            JsonPath::root(),
+            format!("blocks {one:?} and {other:?} touch, but no friction is given between them"),
+        )
+        .hint(
+            "give joints.default.friction, or a joint override for these blocks or their materials",
+        )
     })
 }
 

@@ -69,7 +69,7 @@ fn few(pairs: usize, last: impl Fn() -> (String, usize)) -> Result<(), InputErro
         )));
     }
     most::afford(
-        &format!("looking at {pairs} pairs of blocks that are near enough to touch"),
+        &format!("checking {pairs} pairs of blocks that are near enough to touch"),
         pairs as u64,
         most::PER_PAIR,
     )

@@ -46,7 +46,7 @@ pub(super) fn name_normals(
         let mut open = contacts.filter(|c| !c.ways.is_empty()).peekable();
         if open.peek().is_none() {
             return Err(refuse(
-                "is of no use: no edges or corners of the two meet with several normals",
+                "has no effect: no edges or corners of the two meet with several normals",
                 "remove it, or give the points of the contact as well",
             ));
         }
@@ -54,7 +54,7 @@ pub(super) fn name_normals(
             let n = g.normal * sign;
             if !rims::is_among(&n, &contact.ways, NAMED) {
                 return Err(refuse(
-                    "digs one of them into the other where they meet",
+                    "pushes one of them into the other where they meet",
                     "it points from the first block into the second",
                 ));
             }

@@ -30,7 +30,7 @@ impl Interfaces {
                     let (joints, bare) = strip(plan, &self.list, assembly)?;
                     if bare > 0 {
                         let text = format!(
-                            "strip {:?} carries nothing at {bare} joints nearer than its development length to a free end",
+                            "strip {:?} carries no force at {bare} joints nearer to a free end than its development length",
                             plan.id
                         );
                         told.push(Finding::new(FindingCode::WithoutEffect, text));
@@ -41,8 +41,7 @@ impl Interfaces {
         }
         let mut seen = HashSet::new();
         if let Some(twice) = self.members.iter().find(|m| !seen.insert(m.id.as_str())) {
-            let text =
-                format!("the id {:?} is that of two members, parts of one among them", twice.id);
+            let text = format!("two members, or parts of members, have the id {:?}", twice.id);
             return Err(InputError::at(twice.path.clone(), text)
                 .hint("joints of a strip and fingers of a grip are called \"id/1\", \"id/2\", …"));
         }
@@ -107,7 +106,7 @@ fn strip(
                     plan.path.key("blocks").index(k + 1),
                     format!("blocks {one:?} and {two:?} share no edge on this face"),
                 )
-                .hint("list neighbours in order, and a face that they have in common")
+                .hint("list neighbours in order, with a face that they have in common")
             })
         })
         .collect::<Result<_, _>>()?;

@@ -264,7 +264,7 @@ fn joints_open(model: &Model) -> Option<Finding> {
         false => format!("{} to {}", tally::short(least), tally::short(greatest)),
     };
     let text = format!(
-        "{loose} of {free} free blocks touch nothing, and {} pairs of neighbours are {width} m apart, as joints are that are drawn with their mortar: \"contact\": {{ \"gap\": {} }} (or --gap, on import) closes them",
+        "{loose} of {free} free blocks touch nothing, and {} pairs of neighbours are {width} m apart, as in drawings with mortar joints: \"contact\": {{ \"gap\": {} }} (or --gap, on import) closes them",
         gaps.len(),
         tally::short(closes)
     );
@@ -283,7 +283,7 @@ fn unheld(model: &Model) -> Option<Finding> {
     let names = loose[..loose.len() - more].join(", ");
     let text = match (loose.len(), more) {
         (0, _) => return None,
-        (1, _) => format!("a free block touches nothing that is held: {names}"),
+        (1, _) => format!("a free block has no contact path to a support: {names}"),
         (n, 0) => format!("{n} free blocks have no contact path to a support: {names}"),
         (n, more) => {
             format!("{n} free blocks have no contact path to a support: {names} and {more} more")
@@ -302,12 +302,12 @@ fn without_effect(interfaces: &Interfaces) -> Vec<Finding> {
     let mut findings = Vec::new();
     if faces > 0 {
         findings.push(format!(
-            "{faces} contacts on faces have a rolling arm: not used there, for the corners of a face carry couples by themselves"
+            "{faces} contacts on faces have a rolling arm: not used, as the corners of a face already carry couples"
         ));
     }
     if lines > 0 {
         findings.push(format!(
-            "{lines} contacts at edges or points have a strength, cohesion or pore pressure: not used there, for they have no area"
+            "{lines} contacts at edges or points have a strength, cohesion or pore pressure: not used, as they have no area"
         ));
     }
     findings.into_iter().map(|text| Finding::new(FindingCode::WithoutEffect, text)).collect()

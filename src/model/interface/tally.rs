@@ -170,10 +170,10 @@ impl Tally {
             let n = self.heap.len();
             let more = match self.twice.len() + 1 - n {
                 0 => String::new(),
-                more => format!(" ({more} others are drawn more than once, too)"),
+                more => format!(" ({more} others are drawn more than once as well)"),
             };
             let text = format!(
-                "{n} blocks lie in one place, {first:?} to {last:?}, corner for corner{more}: all weigh, and they do not touch each other; keep one of them"
+                "{n} blocks coincide corner for corner, {first:?} to {last:?}{more}: all of them have weight, and they make no contact with each other; keep one of them"
             );
             return Some(Finding::new(FindingCode::Twice, text));
         }
@@ -182,7 +182,7 @@ impl Tally {
             n => format!(" (and {} more alike)", n - 1),
         };
         let text = format!(
-            "Block {other:?} is block {one:?} once more, corner for corner{more}: both weigh, and they do not touch each other; remove one"
+            "Block {other:?} coincides with block {one:?}, corner for corner{more}: both have weight, and they make no contact with each other; remove one"
         );
         Some(Finding::new(FindingCode::Twice, text))
     }
@@ -252,7 +252,7 @@ impl Tally {
         self.neighbours.sort_by(|x, y| x.0.total_cmp(&y.0).then((x.1, x.2).cmp(&(y.1, y.2))));
         let (nearest, farthest) = (self.neighbours[0], self.neighbours[self.neighbours.len() - 1]);
         let text = format!(
-            "{} of round blocks, or of one and a wall, lie next to each other without touching, as grains do: gaps from {} to {} m, more than contact.gap ({tolerance} × the smaller block's size); nearest: {}",
+            "{} of round blocks, or of one and a wall, lie close without touching, as is usual for grains: gaps from {} to {} m, more than contact.gap ({tolerance} × the smaller block's size); nearest: {}",
             pairs(self.neighbours.len()),
             short(nearest.0),
             short(farthest.0),
@@ -287,7 +287,7 @@ impl Tally {
             n => format!(", or, to close {n} of them, {}", remedy(closable, assembly)),
         };
         let text = format!(
-            "{} of blocks overlap by more than contact.gap ({tolerance} × size), by up to {} m; no contact was made of the overlapping faces. Deepest: {}. Mend the geometry{close}",
+            "{} of blocks overlap by more than contact.gap ({tolerance} × size), by up to {} m; the overlapping faces make no contact. Deepest: {}. Correct the geometry{close}",
             pairs(self.overlaps.len()),
             short(self.overlaps[0].0),
             worst.join(", "),
@@ -299,7 +299,7 @@ impl Tally {
     fn without_a_normal(&self, assembly: &Assembly) -> Option<Finding> {
         let &(a, b) = self.without_normal.first()?;
         let text = format!(
-            "{} of blocks touch only along an edge or at a corner, such as {}, with other blocks against the faces there; such a touch carries nothing (usual between diagonal neighbours)",
+            "{} of blocks touch only along an edge or at a corner, such as {}, with other blocks against the faces there; such a contact carries no force (usual between diagonal neighbours)",
             pairs(self.without_normal.len()),
             pair(assembly, a, b)
         );
@@ -314,7 +314,7 @@ impl Tally {
             n => (format!("{n} edges or corners meet others"), "each"),
         };
         let text = format!(
-            "{touch}, such as {}, and several normals keep them apart: {it} may carry across a small flat in their middle, and nothing that needs another normal is proved. Where that matters, draw the flat that a real edge has, or give the normal in \"interfaces\"",
+            "{touch}, such as {}, with several possible normals: {it} may carry across a small flat between them, and nothing that needs another normal is proved. Where that matters, draw the flat that a real edge has, or give the normal in \"interfaces\"",
             pair(assembly, a, b)
         );
         Some(Finding::new(FindingCode::Flattened, text))

@@ -527,7 +527,7 @@ fn the_remedy_for_an_overlap_closes_it() {
         says(&found(&[shapes[0].clone(), shapes[0].moved(v(0.1, 0.1, 0.1))]), FindingCode::Overlap)
             [0]
         .to_string();
-    assert!(text.ends_with("Mend the geometry"), "{text}");
+    assert!(text.ends_with("Correct the geometry"), "{text}");
 }
 
 #[test]

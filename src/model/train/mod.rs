@@ -181,8 +181,8 @@ impl<'a> Way<'a> {
 /// A road on a block that is not there: the position must not pass for one without a load.
 fn missing(axle: usize, x: f64, id: &str) -> InputError {
     let path = JsonPath::root().key("train").key("axles").index(axle);
-    let text = format!("at x = {x} it presses on the block {id:?} of the road, which is not there");
+    let text = format!("at x = {x} the train stands on block {id:?} of the road, which is missing");
     InputError::at(path, text).hint(
-        "ask the whole scene as it was prepared, with all blocks of its bridge, or end the path before",
+        "use the whole scene with all blocks of its bridge, or end the path before that block",
     )
 }

@@ -47,7 +47,7 @@ impl FromStr for Aspect {
                 Ok(Self::From(Vector3::new(x, y, z)))
             }
             _ => Err(
-                "not auto, front, back, left, right, top, corner or a direction such as 1,-2,0.5"
+                "expected auto, front, back, left, right, top, corner or a direction such as 1,-2,0.5"
                     .into(),
             ),
         }

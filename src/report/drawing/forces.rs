@@ -56,6 +56,6 @@ pub fn edges(
         sheet.put(format_args!(
             "<circle class=\"pin {class}\" cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{radius}\"/>\n"
         ));
-        legend.add(Glyph::Pin("one"), "presses at its edge");
+        legend.add(Glyph::Pin("one"), "resultant at the edge");
     }
 }

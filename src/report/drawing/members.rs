@@ -50,7 +50,7 @@ pub fn draw(sheet: &mut Sheet, view: &View, paper: &Projection, legend: &mut Leg
         }
     }
     if !view.members.is_empty() {
-        let words = "tie, strut, soil or other member, as thick as its force; dashed: slack";
+        let words = "tie, strut, soil or other member (width: force; dashed: slack)";
         legend.add(Glyph::Line("member"), words);
     }
 }

@@ -152,14 +152,14 @@ fn statics(
         [] => String::new(),
         [state] => {
             if !state.line.is_empty() {
-                legend.add(Glyph::Line("one"), "line of thrust, as thick as the force");
+                legend.add(Glyph::Line("one"), "line of thrust (width: force)");
             }
             state.name.clone()
         }
         [one, two, ..] => {
             legend.add(Glyph::Line("one"), &one.name);
             legend.add(Glyph::Line("two"), &two.name);
-            "lines of thrust, as thick as the force".into()
+            "lines of thrust (width: force)".into()
         }
     };
     for (class, state) in ["one", "two"].into_iter().zip(&choice.states) {
@@ -190,7 +190,7 @@ fn kinematics(
         still.iter().enumerate().filter(|(i, _)| movement.moves[*i]).map(|(_, b)| b),
     );
     legend.add(Glyph::Swatch("moved"), "moves");
-    legend.add(Glyph::Ghost, "where it was");
+    legend.add(Glyph::Ghost, "initial position");
     marks::mechanism(&mut sheet, view, paper, movement, legend);
     Panel { caption: movement.name.clone(), content: sheet.text }
 }

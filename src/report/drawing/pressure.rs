@@ -1,4 +1,4 @@
-//! Pressure in joints that yield: on the pressed part of each its diagram, as high as the pressure.
+//! Pressure in elastic joints: on the pressed part of each its diagram, as high as the pressure.
 
 use super::{
     hull,

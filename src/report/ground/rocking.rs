@@ -57,10 +57,10 @@ impl Rocked<'_> {
         let own: Vec<(f64, f64)> = self.history.samples.iter().map(at).collect();
         let end = own.last().map_or(0.0, |p| p.0);
         let ways = Chart {
-            title: "The control point".into(),
+            title: "Displacement of the control point".into(),
             x: Axis::new("time, s", false),
             y: Axis::new("displacement / thickness", false),
-            series: vec![Series::line("way", &own, |x, y| {
+            series: vec![Series::line("control point", &own, |x, y| {
                 format!("{} at {} s", short(y), short(x))
             })],
             ..Chart::default()
@@ -74,7 +74,7 @@ impl Rocked<'_> {
 pub(super) fn ground_chart(motion: &Motion, end: f64) -> Chart {
     let hint = |x: f64, y: f64| format!("ground: {} m/s² at {} s", short(y), short(x));
     Chart {
-        title: "The ground".into(),
+        title: "Ground motion".into(),
         x: Axis::new("time, s", false),
         y: Axis::new("acceleration, m/s²", false),
         series: vec![Series::line("ground", &ground(motion, end), hint)],

@@ -93,7 +93,7 @@ impl ShakenReport<'_> {
             Series::line(*id, points, |x, y| format!("{id}: {} at {} s", short(y), short(x)))
         };
         let ways = Chart {
-            title: "Ways of the blocks that went farthest".into(),
+            title: "Displacements of the blocks that moved farthest".into(),
             x: Axis::new("time, s", false),
             y: Axis::new("displacement / thickness", false),
             series: lines.iter().map(line).collect(),

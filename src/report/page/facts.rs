@@ -4,7 +4,7 @@ use crate::text::{Page, Role, Span};
 use base::plain::markup;
 
 /// Rows about the solver and its work, which are folded together.
-const INTERNALS: [&str; 4] = ["left out", "time", "work", "attempts"];
+const INTERNALS: [&str; 5] = ["reduced", "left out", "time", "work", "attempts"];
 /// Rows that a record repeats.
 const RECORDED: [&str; 2] = ["proof", "scene"];
 /// The row of commands.

@@ -13,7 +13,7 @@ const BAR: &str = include_str!("assets/live.html");
 const SCRIPT: &str = include_str!("assets/live.js");
 
 /// Sliders, and the words of the answer.
-const WORDS: &str = "<section class=\"card\" id=\"knobs\" aria-label=\"Numbers of the scene\"></section><div id=\"words\"></div>";
+const WORDS: &str = "<section class=\"card\" id=\"knobs\" aria-label=\"Parameters of the scene\"></section><div id=\"words\"></div>";
 
 /// The page before anything is said; `name` is that of the file.
 ///

@@ -15,7 +15,7 @@ mod study;
 mod sweep;
 
 pub use live::{live, piece};
-pub use study::{extreme, omissions, study};
+pub use study::{experiments, extreme, omissions, study};
 pub use sweep::sweep;
 
 use super::{

@@ -263,7 +263,7 @@ fn state(s: &ViewState, joints: usize, units: &Units) -> Value {
     })
 }
 
-/// Pressed parts of joints that yield: shares of the greatest pressure at their corners.
+/// Pressed parts of elastic joints: shares of the greatest pressure at their corners.
 fn pressures(view: &View, units: &Units) -> Value {
     let list = || view.pressures.iter();
     let greatest = list().flat_map(|p| &p.pressure).copied().fold(0.0, f64::max);
@@ -285,8 +285,8 @@ fn motion(m: &ViewMotion, units: &Units) -> Value {
     let kind = |k: Kind| match k {
         Kind::Hinge => "hinge",
         Kind::Slide => "slides",
-        Kind::HingeAndSlide => "slides and turns",
-        Kind::Part => "parts",
+        Kind::HingeAndSlide => "slides and rotates",
+        Kind::Part => "separates",
         Kind::Crush => "crushes",
     };
     json!({

@@ -11,6 +11,7 @@ use base::number::{seconds, short};
 use serde_json::{Value, json};
 use sweep::study::{
     Omission, StudyPoint,
+    experiments::Compared,
     extreme::{CellAnswer, CellQuestion},
 };
 
@@ -59,9 +60,39 @@ pub fn study(text: &Page, points: &[StudyPoint]) -> Result<String, serde_json::E
         "bracket",
         "seconds",
         "iterations",
-        "engine says",
+        "solver status",
     ];
     tables(text, &charts, &[json!({ "title": "Runs", "columns": columns, "rows": rows })])
+}
+
+/// The page of predictions against experiments.
+///
+/// # Errors
+/// Only if memory runs out.
+pub fn experiments(
+    text: &Page,
+    chart: Chart,
+    list: &[Compared],
+) -> Result<String, serde_json::Error> {
+    let rows: Vec<Value> = list
+        .iter()
+        .map(|c| {
+            let [low, high] = c.band.map_or([None; 2], |b| b.map(Some));
+            json!([c.group, c.test, c.at, c.measured, c.predicted, low, high, c.unit, c.ratio()])
+        })
+        .collect();
+    let columns = [
+        "group",
+        "test",
+        "at",
+        "measured",
+        "predicted",
+        "least as assumed",
+        "greatest as assumed",
+        "unit",
+        "measured/predicted",
+    ];
+    tables(text, &[chart], &[json!({ "title": "Tests", "columns": columns, "rows": rows })])
 }
 
 /// The page of what omissions save.

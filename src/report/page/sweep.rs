@@ -48,6 +48,6 @@ fn table(header: &Header, rows: &[Row]) -> Value {
     };
     let left = rows.len().saturating_sub(ROWS);
     let note =
-        if left > 0 { format!("{left} more rows are in the file of rows.") } else { String::new() };
+        if left > 0 { format!("{left} more rows are in the output file.") } else { String::new() };
     json!({ "title": "Rows", "columns": columns, "rows": rows.iter().take(ROWS).map(line).collect::<Vec<_>>(), "note": note })
 }

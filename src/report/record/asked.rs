@@ -22,7 +22,7 @@ pub(super) fn facts(file: &ResultFile) -> Vec<[String; 2]> {
     }
     let s = &file.scene.counts;
     list.push([
-        "of".into(),
+        "model".into(),
         format!(
             "{} ({}), {}{}",
             count(s.blocks, "block"),
@@ -55,7 +55,7 @@ fn value(file: &ResultFile) -> Option<String> {
     };
     let name = words.name;
     Some(match unit {
-        "" => format!("{name} = {text}, a number without a unit"),
+        "" => format!("{name} = {text}, dimensionless"),
         unit => format!("{name} = {text}, in {unit}"),
     })
 }
@@ -64,7 +64,7 @@ fn value(file: &ResultFile) -> Option<String> {
 fn yields(state: &StateAnswer) -> Option<String> {
     let greatest = state.greatest.as_ref()?;
     let moved = format!(
-        "displacement of up to {} m under the dead load, of {}",
+        "displacement of up to {} m under the dead load, at {}",
         short(greatest.displacement),
         greatest.block
     );
@@ -72,7 +72,7 @@ fn yields(state: &StateAnswer) -> Option<String> {
         None => moved,
         Some((value, true)) => {
             format!(
-                "λ = {} along the path, the greatest at which a state was found; {moved}",
+                "λ = {} along the path, the greatest at which equilibrium was found; {moved}",
                 fixed(value, 6)
             )
         }
@@ -92,7 +92,7 @@ fn law(file: &ResultFile) -> Option<&'static str> {
     Some(match law {
         Law::Coulomb => "dry friction: joints slide without opening (Coulomb)",
         Law::Associative => {
-            "joints open by μ times their slip as they slide (associative): with dry friction the \
+            "joints that slide open as well, by μ × their slip (associative): with dry friction the \
              answer can be less favourable, never more"
         }
     })

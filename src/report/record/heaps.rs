@@ -9,7 +9,7 @@ use serde_json::Value;
 
 /// Of the values of a protocol.
 const UNITS: &str = "Diameter in m, density in kg/m³; size and rolling arm in mean diameters; rate in \
-                     √(g d), of what turns in degrees per √(d/g); pressure in ρ g d.";
+                     √(g d), for rotating parts in degrees per √(d/g); pressure in ρ g d.";
 
 impl Record {
     /// The record of heaps: how they were made, what came of each, and the drawing of the first.
@@ -34,17 +34,17 @@ impl Record {
 
 fn meaning(kind: ProtocolKind) -> &'static str {
     if kind.leaves_a_slope() {
-        "Slope of the line through the mean surface of a heap at rest, observed in the engine; the \
-         margin beside it is proved for the heap as it lies."
+        "Slope of the straight line through the mean surface of a heap at rest: computed, not \
+         proved. The margin beside it is proved for the heap as it lies."
     } else {
-        "Observed in the engine, not proved; docs/grains.md says how it is measured."
+        "Computed, not proved; docs/grains.md explains how it is measured."
     }
 }
 
 fn question(kind: ProtocolKind) -> &'static str {
     match kind {
-        ProtocolKind::Drum => "At what slope do grains flow in a drum that turns?",
-        ProtocolKind::Hopper => "How fast do grains run out of a hole?",
+        ProtocolKind::Drum => "At what slope do grains flow in a rotating drum?",
+        ProtocolKind::Hopper => "How fast do grains discharge through an opening?",
         ProtocolKind::Shear => "How much do grains resist shear?",
         _ => "At what slope do grains come to rest?",
     }
@@ -63,7 +63,7 @@ fn answer(file: &ReposeFile) -> String {
             let figures = file.figures.iter().map(|f| f.says(file.measured));
             figures.collect::<Vec<_>>().join("; ")
         }
-        _ => format!("no figure: {}", file.no_angle.as_deref().unwrap_or("not measured")),
+        _ => format!("no value: {}", file.no_angle.as_deref().unwrap_or("not measured")),
     }
 }
 
@@ -124,7 +124,7 @@ fn table(heaps: &[HeapResult]) -> Part {
         &columns,
         heaps.iter().map(row).collect(),
         "Angle and R² of the line through the cells of the mean surface; parts: strips or sectors of \
-         the same heap. Margin: the tilt downhill that the heap as it lies still bears, with joints \
-         that open as they slide: a bound.",
+         the same heap. Margin: the further tilt downhill that the heap bears, with joints that \
+         open as they slide: an upper bound.",
     )
 }

@@ -46,7 +46,7 @@ pub(super) fn sections(model: &Model, view: &View) -> Vec<Section> {
         return Vec::new();
     }
     let parts = states.into_iter().map(|s| table(model, view, s));
-    vec![Section::new("The most used joints", parts.collect())]
+    vec![Section::new("Joints of greatest utilisation", parts.collect())]
 }
 
 /// Shear below this share of the normal force is rounding. More: what is there is not shown. Less:
@@ -80,18 +80,18 @@ fn table(model: &Model, view: &View, state: &ViewState) -> Part {
     };
     let rest = match uses.get(MOST) {
         Some(next) => format!(
-            " The other {} that press use at most {}.",
+            " The other {} in compression use at most {}.",
             uses.len() - MOST,
             percent(next.greatest())
         ),
         None => String::new(),
     };
     let note = format!(
-        "For {}. e / t: distance of the resultant from the middle over the thickness in that \
-         direction; 0.5 is the edge, where the joint hinges. Friction: shear over what friction and \
-         cohesion bear. Compression: least stress under which the forces fit over the strength. \
-         “–”: no such limit.{rest} Forces of a structure that is statically indeterminate are one \
-         system among many that balance it.",
+        "For {}. e / t: eccentricity of the resultant over the thickness in that direction; at \
+         0.5, the edge, the joint hinges. Friction: shear over the resistance of friction and \
+         cohesion. Compression: least stress that can carry the forces, over the strength. \
+         “–”: no such limit.{rest} In a statically indeterminate structure these forces are one \
+         of many systems in equilibrium.",
         state.name
     );
     let columns = [
@@ -99,7 +99,7 @@ fn table(model: &Model, view: &View, state: &ViewState) -> Part {
         "#normal force",
         "#shear",
         "#e / t",
-        "#way to the edge",
+        "#e / edge distance",
         "#friction",
         "#compression",
     ];

@@ -60,8 +60,7 @@ pub(super) fn section(model: &Model, view: &View) -> Option<Section> {
     if yields {
         columns.extend(["#normal stiffness", "#shear stiffness"]);
     }
-    let note =
-        "Strengths as the scene gives them; 0 and “no limit” are what holds where it gives none.";
+    let note = "Strengths as given in the scene; 0 and “no limit” are the defaults.";
     (!model.interfaces.list.is_empty()).then(|| {
         let rows = super::listed(laws.iter().map(row).collect(), 12);
         Section::new("Joints", vec![Part::table(&columns, rows, note)])
@@ -75,7 +74,7 @@ pub(super) fn tolerances(file: &ResultFile, model: &Model) -> Vec<Section> {
     let mut facts = vec![
         [
             "gap".into(),
-            format!("faces touch within {} of the size of the smaller block", shown(contact.gap)),
+            format!("faces touch within {} × the size of the smaller block", shown(contact.gap)),
         ],
         [
             "angle".into(),
@@ -83,18 +82,21 @@ pub(super) fn tolerances(file: &ResultFile, model: &Model) -> Vec<Section> {
         ],
         [
             "least area".into(),
-            format!("contacts below {} of its size squared are left out", shown(contact.min_area)),
+            format!(
+                "contacts smaller than {} × its size squared are ignored",
+                shown(contact.min_area)
+            ),
         ],
     ];
     if let Some(words) = contact.widened() {
-        facts.push(["wider than usual".into(), words]);
+        facts.push(["wider than the default".into(), words]);
     }
     let mut parts = vec![Part::Facts(facts)];
     let rows: Vec<Vec<String>> = file.warnings().map(|f| vec![f.text.clone()]).collect();
     parts.push(if rows.is_empty() {
-        Part::Text("Findings in the scene: none.".into())
+        Part::Text("Warnings about the scene: none.".into())
     } else {
-        Part::table(&["findings in the scene"], super::listed(rows, 20), "")
+        Part::table(&["warnings about the scene"], super::listed(rows, 20), "")
     });
-    vec![Section::new("Tolerances and findings", parts)]
+    vec![Section::new("Tolerances and warnings", parts)]
 }

@@ -20,7 +20,7 @@ pub(super) fn sections(model: &Model, view: &View, idle: bool) -> Vec<Section> {
 
 fn loads(model: &Model, view: &View, idle: bool) -> Vec<Part> {
     let mut parts = vec![Part::Text(
-        "The weight of every free block acts at its centre of mass, always.".into(),
+        "The weight of every free block always acts at its centre of mass.".into(),
     )];
     for (live, title) in [(false, "Dead loads"), (true, "Live loads (× λ)")] {
         let there = || view.loads.iter().filter(move |l| l.live == live);
@@ -39,8 +39,8 @@ fn loads(model: &Model, view: &View, idle: bool) -> Vec<Part> {
             continue;
         }
         let note = format!(
-            "{title}{}; together {} along {}.",
-            if live && idle { ", which this question leaves out" } else { "" },
+            "{title}{}; resultant {} along {}.",
+            if live && idle { ", not used for this question" } else { "" },
             quantity(sum.norm(), "N"),
             point(sum.try_normalize(0.0).unwrap_or_default().into())
         );

@@ -76,7 +76,7 @@ impl Origin {
         [
             ("scene", &self.file),
             ("SHA-256", &self.digest),
-            ("asked as", &self.command),
+            ("command", &self.command),
             ("made", &self.made),
         ]
         .into_iter()

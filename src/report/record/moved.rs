@@ -34,16 +34,19 @@ pub(super) fn sections(file: &ResultFile) -> Vec<Section> {
     let columns = [
         "block",
         "#thickness, m",
-        "#greatest way, m",
-        "#over thickness",
+        "#greatest displacement, m",
+        "#greatest / thickness",
         "#at, s",
-        "#left over thickness",
-        "#greatest turn, °",
+        "#residual / thickness",
+        "#greatest rotation, °",
     ];
-    let note = "Ways of centres of mass relative to the ground, in one history: observed in the \
-                engine, not proved. Other records and other scales have other histories.";
+    let note = "Displacements of the centres of mass relative to the ground, in one simulation: \
+                computed, not proved. Other records and other scales give other results.";
     vec![
-        Section::new("The ground", vec![Part::Facts(facts)]),
-        Section::new("How far blocks moved", vec![Part::table(&columns, listed(rows, MOST), note)]),
+        Section::new("Ground motion", vec![Part::Facts(facts)]),
+        Section::new(
+            "Displacements of the blocks",
+            vec![Part::table(&columns, listed(rows, MOST), note)],
+        ),
     ]
 }

@@ -71,7 +71,7 @@ pub(super) fn section(model: &Model) -> Section {
         Part::table(
             &columns,
             sums.iter().map(row).collect(),
-            "Density is mass over volume as it counts, whether the scene gives it by material, by block or as a mass.",
+            "Density is mass over volume, whether the scene gives it by material, by block or as a mass.",
         ),
     ];
     let supports: Vec<Vec<String>> = assembly
@@ -80,7 +80,7 @@ pub(super) fn section(model: &Model) -> Section {
         .filter(|b| b.support)
         .map(|b| vec![b.id.clone(), point(b.centroid.into())])
         .collect();
-    let note = "Supports do not give way; where the question moves them they go as it says.";
+    let note = "Supports are fixed, except where the question imposes a movement.";
     parts.push(Part::table(&["support", "centre, m"], listed(supports, SUPPORTS), note));
     Section::new("Blocks, materials, supports", parts)
 }

@@ -16,10 +16,13 @@ pub(super) fn sections(file: &ResultFile) -> Vec<Section> {
     if let Some(grade) = file.answer.proof() {
         let words = match grade {
             Grade::Exact => {
-                "exact: a theorem about the numbers of the scene, no rounding excused".into()
+                "exact: proved for the numbers of the scene, with no allowance for rounding".into()
             }
             Grade::ToRounding(left) => {
-                format!("to rounding: what is left is {} (the greater, the weaker)", short(left))
+                format!(
+                    "to rounding: the proof holds to within {} (the greater, the weaker)",
+                    short(left)
+                )
             }
         };
         facts.push(["proved".into(), words]);
@@ -32,7 +35,7 @@ pub(super) fn sections(file: &ResultFile) -> Vec<Section> {
     }
     // Each of these has a certificate of its own, which the answer in words tells.
     for (there, words) in [
-        (file.critical.is_some(), "a verdict with its certificate on either side of every flip"),
+        (file.critical.is_some(), "a verdict with its certificate on either side of every change"),
         (file.path.is_some(), "a certificate at every point of the curve"),
         (file.stages.is_some(), "a certificate for every stage"),
         (matches!(file.answer, Answer::Without(_)), "a certificate for every block taken out"),
@@ -48,8 +51,8 @@ pub(super) fn sections(file: &ResultFile) -> Vec<Section> {
     if let Some(doubt) = &file.run.doubt {
         facts.push(["doubt".into(), format!("{}; {}", doubt.evidence, doubt.next)]);
     }
-    let how = "The certificate was recomputed from the geometry of the scene alone, apart from the \
-               solver that found it. A result saved with --save holds it; voussoir check verifies it again.";
+    let how = "The certificate was recomputed from the geometry of the scene alone, independently of the \
+               solver. A result saved with --save contains it; voussoir check verifies it again.";
     let versions = vec![
         ["voussoir".into(), file.run.voussoir.clone()],
         ["format of results".into(), FORMAT.into()],

@@ -74,7 +74,7 @@ pub(super) fn percent(share: f64) -> String {
     if share.is_nan() {
         "–".into()
     } else if share.is_infinite() {
-        "none left".into()
+        "no resistance".into()
     } else {
         format!("{:.1} %", 100.0 * share)
     }

@@ -59,7 +59,7 @@ pub fn profiles(points: &[StudyPoint]) -> Chart {
             .zip(&shares)
             .map(|(r, s)| {
                 format!(
-                    "{}: {} % of the scenes within {} × the fastest",
+                    "{}: {} % of the scenes within {} × the fastest time",
                     method.label(),
                     short(100.0 * s),
                     short(*r)
@@ -70,8 +70,8 @@ pub fn profiles(points: &[StudyPoint]) -> Chart {
         ..Series::default()
     });
     Chart {
-        title: format!("Scenes answered to {ANSWER:.0e}"),
-        x: Axis::new("time over that of the fastest method", true),
+        title: format!("Scenes solved to a relative error of {ANSWER:.0e}"),
+        x: Axis::new("time relative to the fastest method", true),
         y: Axis::new("share of the scenes", false),
         series: series.collect(),
         note: "Performance profile after Dolan and Moré (2002).".into(),

@@ -1,4 +1,4 @@
-//! The study of joints that yield as a table, a chart and a page of text.
+//! The study of elastic joints as a table, a chart and a page of text.
 
 use super::{
     super::{
@@ -53,9 +53,9 @@ pub fn elastic_text(points: &[ElasticPoint], layout: Layout) -> Page {
         0 => format!("{} values", points.len()),
         _ => format!("{} values, {missed} not found", points.len()),
     };
-    page.title("Joints that yield: error against run time", title, Role::Value);
+    page.title("Elastic joints: error against run time", title, Role::Value);
     page.blank();
-    for (kind, of) in [("ways", false), ("factors", true)] {
+    for (kind, of) in [("deflections", false), ("factors", true)] {
         let line = |&(method, knob): &(ElasticMethod, f64)| {
             let own = || {
                 let all = points.iter().filter(|p| p.method == method && p.knob == knob);
@@ -77,7 +77,7 @@ pub fn elastic_text(points: &[ElasticPoint], layout: Layout) -> Page {
         };
         page.row(kind, settings(points).iter().filter_map(line));
     }
-    page.paragraph("Relative errors of displacements and of load factors, medians over the cases and the greatest; times are medians.");
+    page.paragraph("Relative errors of displacements and load factors: median and greatest over the cases. Times are medians.");
     page
 }
 
@@ -88,5 +88,5 @@ pub fn elastic_chart(points: &[ElasticPoint]) -> Chart {
         let dots = own.filter_map(|p| Some((p.seconds, p.error?)));
         (method.label().to_string(), dots.collect())
     });
-    dots("joints that yield, with closed forms", "seconds", series)
+    dots("elastic joints with closed forms", "seconds", series)
 }

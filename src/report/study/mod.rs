@@ -2,10 +2,12 @@
 
 pub(crate) mod chart;
 mod elastic;
+mod experiments;
 mod rocking;
 
 pub use chart::{errors, profiles};
 pub use elastic::{elastic_chart, elastic_csv, elastic_text};
+pub use experiments::{experiments_chart, experiments_csv, experiments_text};
 pub use rocking::{rocking_chart, rocking_csv, rocking_text};
 
 use super::{
@@ -98,7 +100,7 @@ pub fn text(points: &[StudyPoint], layout: Layout) -> Page {
     }
     let wrong: Vec<&StudyPoint> = points.iter().filter(|p| p.is_silently_wrong()).collect();
     let title = format!(
-        "{} runs on {} scenes, {} wrong although the engine said solved",
+        "{} runs on {} scenes, {} wrong although the engine reported success",
         points.len(),
         scenes.len(),
         wrong.len()
@@ -150,20 +152,20 @@ pub fn text(points: &[StudyPoint], layout: Layout) -> Page {
     page
 }
 
-/// What omissions save, as a page.
+/// Time saved by reductions, as a page.
 pub fn omissions_text(list: &[Omission], layout: Layout) -> Page {
     let mut page = Page::new(layout);
     let worst = list.iter().filter_map(Omission::difference).fold(0.0, f64::max);
     let compared = list.iter().filter(|o| o.difference().is_some()).count();
     let title =
-        format!("{compared} of {} load factors compared, the same to {worst:.0e}", list.len());
-    page.title("What omissions save", title, Role::Value);
+        format!("{compared} of {} load factors compared, equal within {worst:.0e}", list.len());
+    page.title("Time saved by reductions", title, Role::Value);
     page.blank();
     for o in list {
         let seconds = o.seconds.map(base::number::seconds);
-        let same = o.difference().map_or("one of them did not come out".into(), |d| {
-            format!("answers differ by {d:.0e}")
-        });
+        let same = o
+            .difference()
+            .map_or("one of them was not found".into(), |d| format!("answers differ by {d:.0e}"));
         let line = format!(
             "{} unknowns in {} instead of {} in {}; {same}",
             o.unknowns[0], seconds[0], o.unknowns[1], seconds[1]

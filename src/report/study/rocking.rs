@@ -64,7 +64,7 @@ fn name(method: RockingMethod, knob: f64) -> String {
 pub fn rocking_text(points: &[RockingPoint], layout: Layout) -> Page {
     let mut page = Page::new(layout);
     let missed = points.iter().filter(|p| p.value.is_none()).count();
-    let title = format!("{} values, {missed} farther than 10 % from the exact one", points.len());
+    let title = format!("{} values, {missed} more than 10 % from the exact one", points.len());
     page.title("Rocking: error against run time", title, Role::Value);
     page.blank();
     let impact = |p: &RockingPoint| p.case.starts_with("impact");
@@ -80,7 +80,7 @@ pub fn rocking_text(points: &[RockingPoint], layout: Layout) -> Page {
             let worst = own.iter().map(|p| p.error.unwrap_or(f64::INFINITY)).fold(0.0, f64::max);
             let error = if worst.is_finite() { format!("{worst:.1e}") } else { "over 10 %".into() };
             Some(format!(
-                "{:<44} greatest error {error:>9}, {} a history",
+                "{:<44} greatest error {error:>9}, {} per history",
                 name(method, knob),
                 if time < 1e-3 { format!("{:.0} µs", 1e6 * time) } else { seconds(time) }
             ))
@@ -97,5 +97,5 @@ pub fn rocking_chart(points: &[RockingPoint]) -> Chart {
         let dots = own.filter_map(|p| Some((p.seconds, p.error?)));
         (name(method, knob), dots.collect())
     });
-    dots("rocking blocks with exact values", "seconds a history", series)
+    dots("rocking blocks with exact values", "seconds per history", series)
 }

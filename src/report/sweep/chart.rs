@@ -72,7 +72,7 @@ pub fn chart(
     let own = match (kind, &order(header, summary)[..], rows.is_empty()) {
         (Kind::Fragility, ..) => {
             let f = summary.fragility.as_ref();
-            fragility(f.ok_or_else(|| none("too few rows tell whether they fail"))?, &all)
+            fragility(f.ok_or_else(|| none("too few rows show whether they fail"))?, &all)
         }
         (_, _, true) => return Err(none("there are no rows")),
         // The plan's first number runs along x.
@@ -142,10 +142,7 @@ impl All<'_> {
             ),
             (Shown::Value(value), _) => short(value),
             (_, Some((word, _))) if group.without < group.rows => {
-                format!(
-                    "{word}: {} of {rows} without a value, so that there is no mean",
-                    group.without
-                )
+                format!("{word}: {} of {rows} without a value, so there is no mean", group.without)
             }
             (_, word) => format!("{} ({rows})", word.map_or("", |w| w.0)),
         }
@@ -267,7 +264,7 @@ fn fragility(f: &Fragility, all: &All) -> Chart {
     // What neither fails nor stands is in no share.
     let is_out = |m: &(Shown, usize)| matches!(m.0, Shown::Error | Shown::Undecided);
     let left_out = marks(all.shown).into_iter().filter(is_out).filter_map(|m| all.marked(m));
-    let left_out = left_out.map(|s| format!("Left out, {}.", s.name));
+    let left_out = left_out.map(|s| format!("Not included ({}).", s.name));
     let series = Series {
         name: "share that fails, with its 95 % interval".into(),
         line: true,

@@ -81,10 +81,7 @@ pub fn progress(progress: &SweepProgress, layout: Layout) -> Page {
     if progress.damaged > 0 {
         page.row(
             "damaged",
-            [format!(
-                "{} left out; rows in them count as not done",
-                count(progress.damaged, "line")
-            )],
+            [format!("{} ignored; their rows count as missing", count(progress.damaged, "line"))],
         );
     }
     if !progress.tasks.is_empty() {

@@ -58,7 +58,7 @@ pub fn summary(header: &Header, summary: &Summary, brief: bool, layout: Layout) 
         // Rows that are open neither failed nor stood.
         let what = match summary.open {
             0 => what,
-            n => format!("{what}; {} left out, with no answer", count(n, "row")),
+            n => format!("{what}; {} without an answer not counted", count(n, "row")),
         };
         // A grid is no sample: its share has no interval.
         let grid = matches!(header.plan.sampling, Sampling::Grid {});
@@ -72,7 +72,7 @@ pub fn summary(header: &Header, summary: &Summary, brief: bool, layout: Layout) 
     // Where one number varies there is nothing to compare.
     if header.plan.vary.len() > 1 && !summary.influence.is_empty() {
         page.row(
-            "matters",
+            "influence",
             summary
                 .influence
                 .iter()
@@ -82,7 +82,7 @@ pub fn summary(header: &Header, summary: &Summary, brief: bool, layout: Layout) 
         page.row(
             "",
             [format!(
-                "measured by the correlation ratio{}: the variance between groups of rows with like values of one number, over the whole; what is left comes from numbers together",
+                "correlation ratio{}: the variance between groups of rows with similar values of one number, relative to the total; the rest comes from interactions",
                 part.replace(',', "")
             )],
         );
@@ -103,13 +103,13 @@ pub fn summary(header: &Header, summary: &Summary, brief: bool, layout: Layout) 
         let first = format!("the first in row {row}: {error}");
         page.row("errors", [first]);
     }
-    page.row("time", [format!("{} of computing", seconds(summary.seconds))]);
+    page.row("time", [format!("{} of computation", seconds(summary.seconds))]);
     page
 }
 
 fn fit(fit: &LognormalFit) -> String {
     format!(
-        "half fail at {} (95 % interval {} to {}), dispersion {}: by maximum likelihood, every row for itself",
+        "half fail at {} (95 % interval {} to {}), dispersion {}; by maximum likelihood from the single rows",
         short(fit.median),
         short(fit.median_95[0]),
         short(fit.median_95[1]),

@@ -5,7 +5,7 @@ use super::{
     telling::{PLAIN, Telling},
 };
 use crate::text::page::{Page, Role};
-use base::tolerance;
+use base::{number::rounded_down, tolerance};
 use check::{proof::ResultFile, terms::Law, verdict::Verdict};
 
 pub(super) const TELLING: Telling = Telling {
@@ -39,7 +39,7 @@ pub(super) const TELLING: Telling = Telling {
 fn title(file: &ResultFile) -> (String, Role) {
     match file.answer.verdict() {
         Some(Verdict::Stable) => ("stands".into(), Role::Good),
-        Some(Verdict::Conditional) => ("stands only with a pre-stress".into(), Role::Bad),
+        Some(Verdict::Conditional) => ("stands only with self-stress".into(), Role::Bad),
         Some(Verdict::Unstable) => ("falls".into(), Role::Bad),
         Some(Verdict::Undecided) | None => ("undecided".into(), Role::Unsure),
     }
@@ -53,48 +53,51 @@ pub(super) fn verdict(page: &mut Page, file: &ResultFile) {
         .map_or((0.0, f64::NAN), |a| (a.equilibrium_error.lower, a.equilibrium_error.upper));
     match answer.verdict() {
         Some(Verdict::Stable) => {
-            page.paragraph(&format!(
-                "Contact forces inside every friction cone balance every block, up to {upper:.1e} of its weight."
-            ));
-            page.paragraph(&settled(file));
+            page.paragraph("Contact forces inside all friction cones balance every block.");
+            page.paragraph(settled(file));
         }
         Some(Verdict::Conditional) => {
-            page.paragraph(&format!(
-                "Contact forces inside every friction cone balance every block, up to {upper:.1e} of its weight, but the loads do not produce them: they need a pre-stress that nobody applied."
-            ));
+            page.paragraph(
+                "Contact forces inside all friction cones balance every block, but the loads do not produce them: the blocks would have to be stressed against each other beforehand.",
+            );
             let left = file.run.state_steps.last().map_or(f64::NAN, |s| s.acceleration);
             page.paragraph(&format!(
-                "Without it the motion below starts, with {left:.2} g on some block, and obeys Coulomb's law. It is not safe."
+                "Without that self-stress the motion below starts, with {left:.2} g on some block, and obeys Coulomb's law. It is not safe."
             ));
         }
         Some(Verdict::Unstable) => page.paragraph(&format!(
-            "No contact forces inside the friction cones balance the loads: whatever they are, some block is left with at least {lower:.1e} of its weight. The mechanism below moves by itself, which proves it."
+            "No contact forces inside the friction cones balance the loads: at best one block stays out of balance by {} of its weight. The mechanism below moves by itself, which proves it.",
+            percent(lower)
         )),
         Some(Verdict::Undecided) if file.motion.is_some() && upper <= tolerance::EQUILIBRIUM_ERROR => page.paragraph(
-            "Admissible contact forces exist, but whether the loads produce them did not come out: the state under dry friction neither came to rest nor to a motion.",
+            "Contact forces inside all friction cones balance every block. Whether the loads produce them is undecided: the state under dry friction came neither to rest nor to a motion.",
         ),
         Some(Verdict::Undecided) | None => page.paragraph(&format!(
-            "The least part of its weight with which some block is left lies between {lower:.1e} and {upper:.1e}; it is too close to the line between standing and falling, or the solver lost its way."
+            "The least equilibrium error lies between {lower:.1e} and {upper:.1e} of a block's weight: too close to the line between standing and falling, or the solver failed.",
         )),
     }
 }
 
+/// A share of a weight.
+fn percent(share: f64) -> String {
+    match 100.0 * share {
+        p if p >= 0.001 => format!("{} %", rounded_down(p)),
+        _ => format!("{share:.1e}"),
+    }
+}
+
 /// What makes admissible forces count.
-fn settled(file: &ResultFile) -> String {
+fn settled(file: &ResultFile) -> &'static str {
     let law = file.answer.as_verdict().and_then(|a| a.law);
     match (file.motion, law) {
         (Some(_), _) => {
-            let step = file.run.state_steps.last();
-            format!(
-                "The loads produce such forces by themselves: with dry friction, on contacts that yield a little, the blocks come to rest (what is left, {:.0e} g, falls with the compliance).",
-                step.map_or(f64::NAN, |s| s.acceleration)
-            )
+            "With slightly elastic joints the blocks come to rest under these loads: no self-stress is needed (computed, not proved)."
         }
         (None, Some(Law::Coulomb)) => {
-            "No pre-stress is possible: contacts form no closed chain.".into()
+            "No self-stress is possible: the contacts form no closed chain."
         }
         (None, _) => {
-            "This says that the joints can carry the load; it does not exclude that they need a pre-stress which nobody applied.".into()
+            "The joints can carry the load; whether that needs self-stress was not asked (--law associative)."
         }
     }
 }

@@ -44,7 +44,7 @@ pub fn attempts(file: &ResultFile) -> Option<Chart> {
         file.run.state_steps.iter().filter(|s| s.acceleration > 0.0 && s.seconds > 0.0).collect();
     if !states.is_empty() {
         let mut line = Series {
-            name: "acceleration left with dry friction, g".into(),
+            name: "equilibrium error with dry friction, g".into(),
             line: true,
             ..Series::default()
         };
@@ -53,7 +53,7 @@ pub fn attempts(file: &ResultFile) -> Option<Chart> {
             spent += s.seconds;
             line.points.push([Some(spent), Some(s.acceleration)]);
             line.hints.push(format!(
-                "after {}: {:.1e} g left, ε = {:.0e}, {} programs",
+                "after {}: equilibrium error {:.1e} g, ε = {:.0e}, {} programs",
                 seconds(spent),
                 s.acceleration,
                 s.epsilon,
@@ -70,14 +70,14 @@ pub fn attempts(file: &ResultFile) -> Option<Chart> {
         x: Axis::new("seconds", true),
         y: Axis::new("error: width of the bracket", true),
         series,
-        note: "Each point is an attempt; its bracket is recomputed from the scene, not the solver's word.".into(),
+        note: "Each point is an attempt; its bracket is recomputed from the scene, not taken from the solver.".into(),
         ..Chart::default()
     })
 }
 
 fn hint(a: &Attempt, spent: f64, width: f64) -> String {
     format!(
-        "{}: bracket {width:.1e} wide after {}; {} iterations, engine says {:?}",
+        "{}: bracket {width:.1e} wide after {}; {} iterations, solver status {:?}",
         a.program,
         seconds(spent),
         a.iterations,
@@ -126,27 +126,27 @@ fn courses(seen: &Seen) -> Vec<Course> {
     match seen {
         Seen::Drum { course, .. } => vec![Course {
             title: "Slope of the surface as the drum turns",
-            axes: ["angle turned, degrees", "slope, degrees"],
-            note: "The mean is over all of it.",
+            axes: ["rotation of the drum, degrees", "slope, degrees"],
+            note: "The mean is over the whole rotation.",
             points: course.clone(),
         }],
         Seen::Hopper { course, .. } => vec![Course {
-            title: "What has run out",
-            axes: ["time since the hole was opened, s", "kg"],
-            note: "The discharge is the slope between 0.1 and 0.5 of what was filled in.",
+            title: "Discharged mass",
+            axes: ["time since opening, s", "kg"],
+            note: "The discharge rate is the slope between 0.1 and 0.5 of the mass filled in.",
             points: course.clone(),
         }],
         Seen::Shear { course, .. } => vec![
             Course {
                 title: "Resistance to shear",
-                axes: ["way, m", "shear over normal force"],
-                note: "The residual is the mean of the last two fifths of the way.",
+                axes: ["displacement, m", "shear over normal force"],
+                note: "The residual value is the mean over the last two fifths of the displacement.",
                 points: course.iter().map(|c| [c[0], c[1]]).collect(),
             },
             Course {
                 title: "Rise of the lid",
-                axes: ["way, m", "m"],
-                note: "Where it rises most steeply is the dilatancy.",
+                axes: ["displacement, m", "m"],
+                note: "The dilatancy is the steepest slope of this curve.",
                 points: course.iter().map(|c| [c[0], c[2]]).collect(),
             },
         ],

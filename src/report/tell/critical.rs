@@ -7,7 +7,7 @@ use crate::text::{
 };
 use analysis::critical::Method;
 use base::{
-    number::{bracketed, count, ends, short},
+    number::{count, ends, rounded_down, rounded_up, short},
     tolerance,
 };
 use check::{
@@ -36,7 +36,7 @@ pub(super) const TELLING: Telling = Telling {
 fn verb(v: Verdict) -> &'static str {
     match v {
         Verdict::Stable => "stands",
-        Verdict::Conditional => "stands only with a pre-stress",
+        Verdict::Conditional => "stands only with self-stress",
         Verdict::Unstable => "falls",
         Verdict::Undecided => "is undecided",
     }
@@ -48,13 +48,18 @@ fn name(pointer: &str) -> &str {
     words.find(|w| w.parse::<usize>().is_err()).filter(|w| !w.is_empty()).unwrap_or(pointer)
 }
 
-/// With the digits that are known.
-fn digits(v: &CriticalValue, method: Method) -> String {
-    let near = 0.5 * tolerance::CRITICAL_WIDTH * v.value.abs();
-    match method {
-        Method::Margin => bracketed(v.value, v.value - near, v.value + near),
-        Method::Halving | Method::Scan => bracketed(v.value, v.lower, v.upper),
-    }
+/// The ends of a flip, four digits rounded outwards where that tells them apart, else all.
+fn sides(v: &CriticalValue, method: Method) -> [String; 2] {
+    let near = match method {
+        Method::Margin => 0.5 * tolerance::CRITICAL_WIDTH * v.value.abs(),
+        Method::Halving | Method::Scan => 0.0,
+    };
+    let [low, high] = match method {
+        Method::Scan => return [v.lower, v.upper].map(|v| v.to_string()),
+        Method::Margin => [v.value - near, v.value + near],
+        Method::Halving => [v.lower, v.upper],
+    };
+    [rounded_down(low), rounded_up(high)]
 }
 
 fn flips(file: &ResultFile) -> Vec<(CriticalValue, Method)> {
@@ -63,21 +68,8 @@ fn flips(file: &ResultFile) -> Vec<(CriticalValue, Method)> {
 }
 
 fn flip(name: &str, (v, method): &(CriticalValue, Method)) -> String {
-    match method {
-        Method::Scan => format!(
-            "{} up to {name} = {}, {} from {} on",
-            verb(v.below),
-            v.lower,
-            verb(v.above),
-            v.upper
-        ),
-        _ => format!(
-            "{} below {name} = {}, {} above",
-            verb(v.below),
-            digits(v, *method),
-            verb(v.above)
-        ),
-    }
+    let [low, high] = sides(v, *method);
+    format!("{} up to {name} = {low}, {} from {high} on", verb(v.below), verb(v.above))
 }
 
 /// The first line.
@@ -85,7 +77,9 @@ pub(super) fn title(file: &ResultFile) -> (String, Role) {
     let Some(c) = &file.critical else { return ("undecided".into(), Role::Unsure) };
     match (&flips(file)[..], file.critical.as_ref().and_then(CriticalResult::exhausted)) {
         ([one], _) => (flip(name(&c.vary), one), Role::Value),
-        ([], Some(verdict)) => (format!("{} throughout, no flip", verb(verdict)), Role::Bad),
+        ([], Some(verdict)) => {
+            (format!("{} throughout: the verdict does not flip", verb(verdict)), Role::Bad)
+        }
         ([], None) => ("undecided".into(), Role::Unsure),
         (several, _) => (format!("the verdict flips {} times", several.len()), Role::Value),
     }
@@ -100,18 +94,19 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
     }
     if list.iter().any(|(_, m)| *m == Method::Margin) {
         page.paragraph(&format!(
-            "Each value is where the least equilibrium error reaches zero, known to {:.0e} of it. On both sides the verdict is proved, as near as it can be told from zero: a verdict needs {:.0e} g.",
+            "At each value the least equilibrium error reaches zero; the value is known to {:.0e} of itself. On both sides the verdict is proved as close to it as an equilibrium error of {:.0e} g can be told from zero.",
             tolerance::CRITICAL_WIDTH,
             tolerance::EQUILIBRIUM_ERROR
         ));
     }
     match file.critical.as_ref().and_then(CriticalResult::exhausted) {
-        Some(verdict) => {
-            page.paragraph(&format!("It {} at every value of the scan; at both ends of the range that is proved.", verb(verdict)))
-        }
-        None if list.is_empty() => {
-            page.paragraph("No flip was found whose two sides are proved, and the verdict is not the same throughout.")
-        }
+        Some(verdict) => page.paragraph(&format!(
+            "It {} at every value of the scan; at both ends of the range that is proved.",
+            verb(verdict)
+        )),
+        None if list.is_empty() => page.paragraph(
+            "The verdict is not the same throughout, but no flip was found with both sides proved.",
+        ),
         None => {}
     }
     page.paragraph(&unseen(c));
@@ -121,11 +116,11 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
 fn unseen(c: &CriticalResult) -> String {
     let [a, b] = c.between;
     if c.whole && c.scan.len() as f64 > (a - b).abs() {
-        return "Every whole number of the range was asked.".into();
+        return "Every whole number of the range was computed.".into();
     }
     let step = (b - a).abs() / (c.scan.len().max(2) - 1) as f64;
     format!(
-        "Two flips closer together than {}, the step of the scan, may stay unseen; --scan and --step make it finer.",
+        "Two flips closer together than {}, the step of the scan, may be missed; --scan and --step refine it.",
         short(step)
     )
 }

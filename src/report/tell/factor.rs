@@ -1,11 +1,9 @@
 //! What load factors, tilts and positions of trains have in common.
 
 use super::telling::FactorWords;
-use crate::text::page::Page;
+use crate::text::{options::TextOptions, page::Page};
 use analysis::{Outcome, coulomb::Found};
-use base::number::{
-    bracketed, computed, computed_tilt, decimals, ends, fixed, moving, moving_tilt,
-};
+use base::number::{bracketed, ends, rounded_down, rounded_up};
 use check::{
     proof::{answer::Answer, certificate::DryResult, result::ResultFile},
     verdict::{Verdict, claim::Claim},
@@ -25,7 +23,7 @@ pub(super) fn without_live_load(file: &ResultFile, words: FactorWords) -> Option
     }
     let says_so = matches!(dry_of(file), Dry::Never) || status(&file.answer) == Outcome::Impossible;
     match file.answer.verdict().filter(|_| !says_so)? {
-        Verdict::Conditional => Some(format!("{place} it stands only with a pre-stress")),
+        Verdict::Conditional => Some(format!("{place} it stands only with self-stress")),
         Verdict::Unstable => Some(format!("{place} it falls")),
         Verdict::Stable | Verdict::Undecided => None,
     }
@@ -35,39 +33,37 @@ pub(super) fn without_live_load(file: &ResultFile, words: FactorWords) -> Option
 pub(super) fn why(page: &mut Page, file: &ResultFile, words: FactorWords) {
     let tilt = words.tilt;
     match (status(&file.answer), found(&file.answer)) {
-        (Outcome::Found, Some((value, lower, upper))) => {
-            let [low, high] = ends(value, lower, upper);
-            if tilt {
-                page.paragraph(&format!(
-                    "Tilting by θ adds tan θ × the weight sideways. The greatest tan θ is {} (between {low} and {high}).",
-                    bracketed(value, lower, upper)
-                ));
-            } else {
-                page.paragraph(&format!(
-                    "Contact forces inside the friction cones balance the dead load and λ × the live load up to λ = {}, between {low} and {high}; beyond it the mechanism below moves.{}",
-                    bracketed(value, lower, upper),
+        (Outcome::Found, Some((value, ..))) => {
+            page.paragraph(&match tilt {
+                true => format!(
+                    "A tilt of θ adds tan θ × the weight sideways. Contact forces inside the friction cones balance it up to tan θ = {}; beyond it the governing mechanism below moves.",
+                    rounded_down(value)
+                ),
+                false => format!(
+                    "Contact forces inside the friction cones balance the dead load and λ × the live load up to λ = {}; beyond it the governing mechanism below moves.{}",
+                    rounded_down(value),
                     unit(file)
-                ));
-            }
+                ),
+            });
             page.paragraph(
-                "Sliding counts as associative here (a joint that slides opens as well): for dry friction this is an upper bound.",
+                "Joints that slide are taken to open as well (associative): for dry friction this is an upper bound.",
             );
         }
         (Outcome::Unbounded, _) => {
-            page.paragraph("Contact forces balance the live load by itself, so that any multiple of it can be added. Sliding counts as associative here (a joint that slides opens as well): with dry friction there may be a limit.");
+            page.paragraph("Contact forces balance the live load by itself, so any multiple of it can be added. Joints that slide are taken to open as well (associative): with dry friction there may be a limit.");
             if let Some(Claim::Unbounded { standing }) = file.certificate.claim {
-                page.paragraph(&format!("It stands at λ = {} and at every greater λ.", moving(standing)));
+                page.paragraph(&format!("It stands at λ = {} and at every greater λ.", rounded_up(standing)));
             }
         }
         (Outcome::Impossible, _) => page.paragraph(
             "The mechanism below gains power under the dead load and none under the live load: no multiple of the live load holds it.",
         ),
-        _ if file.run.trace.is_empty() => page.paragraph("The time limit left no time for an attempt."),
+        _ if file.run.trace.is_empty() => page.paragraph("The time limit was reached before the first attempt."),
         _ => {
             let l = file.answer.bound();
             let end = |e: Option<f64>| e.map_or("unknown".to_string(), |v| format!("{v:.9}"));
             page.paragraph(&format!(
-                "No attempt closed the bracket of the load factor, and none showed that there is no limit or no answer. Lower end {}, upper end {}.",
+                "No attempt closed the bracket of the load factor, and none showed that there is no limit or no solution. Lower end {}, upper end {}.",
                 end(l.and_then(|l| l.lower)),
                 end(l.and_then(|l| l.upper))
             ));
@@ -94,53 +90,71 @@ pub(super) fn unit(file: &ResultFile) -> &'static str {
 
 /// The tilt up to which blocks are at rest, by its tangent.
 pub(super) fn at_rest_to(tangent: f64) -> String {
-    computed_tilt(tangent.atan().to_degrees())
+    rounded_down(tangent.atan().to_degrees())
+}
+
+/// The value of a bound with all digits that are known, for who asks for everything.
+pub(super) fn digits(page: &mut Page, file: &ResultFile, options: TextOptions) {
+    let Some(words) = super::telling(file).factor.filter(|_| options.verbose) else { return };
+    if let (Outcome::Found, Some((value, lower, upper))) =
+        (status(&file.answer), found(&file.answer))
+    {
+        let [low, high] = ends(value, lower, upper);
+        let name = if words.tilt { "tan θ" } else { words.name };
+        page.row(
+            "bound",
+            [format!("{name} = {}, between {low} and {high}", bracketed(value, lower, upper))],
+        );
+    }
+    if let Some(v) = file.dry.as_ref().and_then(|d| d.value) {
+        page.row("with friction", [format!("{v}")]);
+    }
 }
 
 /// The load factor with dry friction.
 pub(super) fn dry(page: &mut Page, file: &ResultFile, own: FactorWords) {
     let Some(dry) = &file.dry else { return };
-    let words = |v: f64, tilt: fn(f64) -> String, factor: fn(f64) -> String| match own.tilt {
-        true => format!("{}°", tilt(v.atan().to_degrees())),
-        false => format!("{} = {}", own.name.trim_end_matches('0'), factor(v)),
+    let words = |v: f64, digits: fn(f64) -> String| match own.tilt {
+        true => format!("{}°", digits(v.atan().to_degrees())),
+        false => format!("{} = {}", own.name.trim_end_matches('0'), digits(v)),
     };
-    let no_longer = |v: f64| format!(", and no longer at {}", words(v, moving_tilt, moving));
-    let words = |v: f64| words(v, computed_tilt, computed);
+    let no_longer = |v: f64| format!(", and no longer at {}", words(v, rounded_up));
+    let words = |v: f64| words(v, rounded_down);
     let text = match (dry.found, dry.value) {
         (Found::NothingSlides, Some(_)) => {
-            format!("In the mechanism nothing slides, so with dry friction it is the same{}.", rest(dry, words))
+            format!("Nothing slides in the mechanism, so dry friction gives the same value{}.", rest(dry, words))
         }
         (Found::Rests, Some(v)) => {
             let moves = dry.moves_at.map(no_longer).unwrap_or_default();
-            format!("With dry friction (joints slide without opening) the blocks come to rest up to {}{moves}: the forces that the bound needs are not such as the loads produce. Computed, not proved.", words(v))
+            format!("With dry friction (joints slide without opening) the blocks come to rest up to {}{moves} (computed, not proved). The forces that the upper bound needs are not produced by the loads.", words(v))
         }
         (Found::RestsBelow, Some(v)) => {
             let (moves, above) = match dry.moves_at {
                 Some(m) => (no_longer(m), "in between"),
                 None => (String::new(), "between there and the bound"),
             };
-            format!("With dry friction (joints slide without opening) the blocks come to rest up to {}{moves}; what they do {above} is not known. Computed, not proved.", words(v))
+            format!("With dry friction (joints slide without opening) the blocks come to rest up to {}{moves} (computed, not proved); what they do {above} is undecided.", words(v))
         }
         (Found::NotAtRest, _) if falls_by_itself(file) => {
-            "With dry friction there is no load factor: already the dead load finds no forces that balance it.".to_string()
+            "With dry friction there is no load factor: no forces balance the dead load alone.".to_string()
         }
-        (Found::NotAtRest, _) => "With dry friction there is no load factor: already without the load the blocks do not come to rest, for the forces that hold them would need a pre-stress that nobody applied. Computed, not proved.".to_string(),
+        (Found::NotAtRest, _) => "With dry friction there is no load factor: the blocks move under the dead load alone; equilibrium would need self-stress (computed, not proved).".to_string(),
         (Found::FixedPoint, Some(v)) => {
-            let others = if status(&file.answer) == Outcome::Found { ", none above the associative one" } else { "" };
+            let others = if status(&file.answer) == Outcome::Found { ", none above the upper bound" } else { "" };
             format!(
-                "With dry friction (joints slide without opening): {}. Forces and a mechanism that obey Coulomb's law together prove that it is one{}; there may be others{others}.",
+                "With dry friction (joints slide without opening): {}. Forces and a mechanism that together obey Coulomb's law prove that this is a limit{}; there may be others{others}.",
                 words(v),
                 rest(dry, words)
             )
         }
         (Found::Unlimited, _) => {
-            "With dry friction the live load alone comes to rest as well, on forces that it produces itself: no limit (computed, not proved)."
+            "With dry friction there is no limit either: the live load alone comes to rest on the forces that it produces (computed, not proved)."
                 .to_string()
         }
         _ => {
             let rests = dry.rests_at.filter(|&r| r > 0.0).map(|r| format!(" The blocks come to rest up to {} at least (computed, not proved).", words(r)));
             format!(
-                "With dry friction no value came out: the friction limits had not settled.{}",
+                "With dry friction the value is undecided: the friction limits did not settle.{}",
                 rests.unwrap_or_default()
             )
         }
@@ -152,11 +166,10 @@ pub(super) fn dry(page: &mut Page, file: &ResultFile, own: FactorWords) {
 fn rest(dry: &DryResult, words: impl Fn(f64) -> String) -> String {
     match dry.rests_at {
         _ if dry.is_reached() => String::new(),
-        Some(rests_at) => format!(
-            " (the blocks were seen at rest up to {}; what they do from there on did not come out)",
-            words(rests_at)
-        ),
-        None => " (whether the blocks come to rest below it did not come out)".into(),
+        Some(rests_at) => {
+            format!(" (the blocks come to rest up to {}; beyond, it is undecided)", words(rests_at))
+        }
+        None => " (whether the blocks come to rest below it is undecided)".into(),
     }
 }
 
@@ -206,10 +219,10 @@ pub(super) fn dead_load(page: &mut Page, file: &ResultFile, words: FactorWords) 
     let text = match file.dead_load.as_ref().and_then(|d| d.answer.verdict()) {
         Some(Verdict::Stable) => format!("{place} it stands."),
         Some(Verdict::Conditional) => {
-            format!("{place} it stands only with a pre-stress that nobody applied.")
+            format!("{place} it stands only with self-stress.")
         }
         Some(Verdict::Unstable) => format!("{place} it falls."),
-        Some(Verdict::Undecided) => format!("{place} it is undecided whether it stands."),
+        Some(Verdict::Undecided) => format!("{place} it is undecided."),
         None if negative => format!("{place} it falls: the greatest λ is below zero."),
         None if status(&file.answer) == Outcome::Impossible => format!("{place} it falls as well."),
         None => return,
@@ -250,11 +263,4 @@ fn is_negative(file: &ResultFile) -> bool {
 /// Value and bracket where a load factor was found.
 pub(super) fn found(answer: &Answer) -> Option<(f64, f64, f64)> {
     answer.bound()?.found()
-}
-
-/// The angle of a load factor, with the digits its bracket supports.
-pub(super) fn degrees((value, lower, upper): (f64, f64, f64)) -> String {
-    let [v, l, u] = [value, lower, upper].map(|x| x.atan().to_degrees());
-    // Nobody reads an angle to more than a millionth of a degree.
-    fixed(v, decimals(v, l, u).min(6))
 }

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::text::page::Role;
 use analysis::Outcome;
-use base::number::{bracketed, computed};
+use base::number::{rounded_down, rounded_up};
 use check::proof::result::ResultFile;
 
 pub(super) const TELLING: Telling = Telling {
@@ -30,38 +30,67 @@ pub(super) const LAMBDA: FactorWords =
 
 /// The load factor in a line.
 pub(super) fn title(file: &ResultFile) -> (String, Role) {
+    let dry = dry_of(file);
+    let role = if matches!(dry, Dry::Never) { Role::Bad } else { Role::Value };
     match (status(&file.answer), found(&file.answer)) {
-            (Outcome::Found, Some((value, lower, upper))) => {
-                let role = if upper < 0.0 { Role::Bad } else { Role::Value };
-                let bound = bracketed(value, lower, upper);
-                let text = match dry_of(file) {
-                    Dry::Same => format!("λ = {bound}"),
-                    Dry::Other(v) => format!("λ = {} with dry friction, at most {bound}", computed(v)),
-                    Dry::Never if upper < 0.0 => format!("λ at most {bound}"),
-                    // That it falls without is said beside it.
-                    Dry::Never if falls_by_itself(file) => format!("no λ with dry friction, at most {bound}"),
-                    Dry::Never => format!("no λ with dry friction: not at rest under the dead load (at most {bound} with a pre-stress)"),
-                    Dry::UpTo(v) => format!("λ at most {bound}; with dry friction at rest up to {}, then undecided", computed(v)),
-                    Dry::Undecided => format!("λ at most {bound}; with dry friction undecided"),
-                };
-                (text, if matches!(dry_of(file), Dry::Never) { Role::Bad } else { role })
+        (Outcome::Found, Some((value, _, upper))) => {
+            let most = rounded_up(upper);
+            let text = match dry {
+                Dry::Same => carries(value),
+                Dry::Other(v) => {
+                    format!("{} with dry friction (proved upper bound {most})", carries(v))
+                }
+                Dry::Never if upper < 0.0 => format!("load factor at most {most}"),
+                // That it falls without is said beside it.
+                Dry::Never if falls_by_itself(file) => {
+                    format!("no load factor with dry friction (proved upper bound {most})")
+                }
+                Dry::Never => format!(
+                    "no load factor with dry friction: the blocks move under the dead load alone (at most {most} with self-stress)"
+                ),
+                Dry::UpTo(v) => format!(
+                    "{} at least with dry friction, at most {most}; undecided in between",
+                    carries(v)
+                ),
+                Dry::Undecided => {
+                    format!("load factor at most {most}; with dry friction undecided")
+                }
+            };
+            (text, if upper < 0.0 { Role::Bad } else { role })
+        }
+        (Outcome::Unbounded, _) => match (dry_value(file), dry) {
+            (Some(v), _) => (format!("{} with dry friction ({WEDGES})", carries(v)), Role::Value),
+            (None, Dry::Never) => (
+                "no load factor with dry friction: the blocks move under the dead load alone"
+                    .into(),
+                Role::Bad,
+            ),
+            (None, Dry::UpTo(v)) => (
+                format!("{} at least with dry friction, undecided beyond ({WEDGES})", carries(v)),
+                Role::Unsure,
+            ),
+            (None, Dry::Undecided) => {
+                (format!("with dry friction undecided ({WEDGES})"), Role::Unsure)
             }
-            (Outcome::Unbounded, _) => match dry_value(file) {
-                Some(v) => (format!("the live load wedges where joints open as they slide; with dry friction λ = {}", computed(v)), Role::Value),
-                None => match dry_of(file) {
-                    Dry::Never => ("no λ with dry friction: not at rest under the dead load".to_string(), Role::Bad),
-                    Dry::UpTo(v) => {
-                        let text = "the live load wedges where joints open as they slide; with dry friction at rest up to";
-                        (format!("{text} λ = {}, then undecided", computed(v)), Role::Unsure)
-                    }
-                    Dry::Undecided => {
-                        ("the live load wedges where joints open as they slide; with dry friction undecided".to_string(), Role::Unsure)
-                    }
-                    Dry::Same | Dry::Other(_) => ("the live load wedges: it can grow without limit".to_string(), Role::Good),
-                },
-            },
-            (Outcome::Impossible, _) => ("falls, whatever the live load".to_string(), Role::Bad),
-            _ if matches!(dry_of(file), Dry::Never) => ("no λ with dry friction, the bound undecided".to_string(), Role::Bad),
-            _ => ("undecided".to_string(), Role::Unsure),
+            (None, Dry::Same | Dry::Other(_)) => {
+                ("no limit: the live load wedges the blocks".into(), Role::Good)
+            }
+        },
+        (Outcome::Impossible, _) => ("falls, whatever the live load".into(), Role::Bad),
+        _ if matches!(dry, Dry::Never) => {
+            ("no load factor with dry friction; the upper bound is undecided".into(), Role::Bad)
+        }
+        _ => ("undecided".into(), Role::Unsure),
+    }
+}
+
+/// Where only dry friction sets a limit.
+const WEDGES: &str = "no limit if joints that slide opened";
+
+/// What a load factor means.
+fn carries(value: f64) -> String {
+    match value > 0.0 {
+        true => format!("carries {} × the live load", rounded_down(value)),
+        false => format!("load factor {}", rounded_down(value)),
     }
 }

@@ -26,6 +26,7 @@ use crate::{
     chart::Chart,
     text::{
         left_out::left_out,
+        options::TextOptions,
         page::{Page, Role},
     },
 };
@@ -88,10 +89,10 @@ pub(crate) fn title(page: &mut Page, file: &ResultFile) {
     if let Some(id) = file.in_balance.first() {
         let more = match file.in_balance.len() {
             1 => String::new(),
-            n => format!(" (as {} more do)", n - 1),
+            n => format!(" ({} more alike)", n - 1),
         };
         text = format!(
-            "{text}, but only in balance: {id} stands on an edge or a point and bears no push{more}"
+            "{text}, in unstable balance: {id} stands on an edge or a point and bears no push{more}"
         );
         role = if role == Role::Good { Role::Unsure } else { role };
     }
@@ -120,8 +121,8 @@ fn required(file: &ResultFile) -> Option<String> {
     let least = short(required.least);
     match required.met {
         Some(true) => None,
-        Some(false) => Some(format!("not the required {least}{unit}")),
-        None => Some(format!("whether it is the required {least}{unit} is open")),
+        Some(false) => Some(format!("less than the required {least}{unit}")),
+        None => Some(format!("whether the required {least}{unit} is met is undecided")),
     }
 }
 
@@ -131,8 +132,8 @@ fn flattened(file: &ResultFile) -> Option<String> {
     let [a, b] = file.flattened.first()?;
     match file.flattened.len() {
         _ if file.run.doubt.is_some() => None,
-        1 => Some(format!(" with the edge of {a} and {b} flattened")),
-        n => Some(format!(" with {n} edges and corners flattened, such as that of {a} and {b}")),
+        1 => Some(format!(" (edge of {a} and {b} flattened)")),
+        n => Some(format!(" ({n} edges and corners flattened, e.g. that of {a} and {b})")),
     }
 }
 
@@ -142,6 +143,11 @@ pub(crate) fn under(file: &ResultFile, text: impl std::fmt::Display) -> String {
         Some(words) => format!("{text} (contact tolerances widened by the scene: {words})"),
         None => text.to_string(),
     }
+}
+
+/// The value with all digits that are known.
+pub(crate) fn digits(page: &mut Page, file: &ResultFile, options: TextOptions) {
+    factor::digits(page, file, options);
 }
 
 /// The part of the scene that decides.
@@ -158,7 +164,7 @@ pub(crate) fn next(file: &ResultFile, scene: &str, again: &str) -> Vec<(String, 
         || file.answer.proof().is_some()
         || file.answer.path().is_some_and(|a| a.value.is_some());
     if !seen && file.certificate.claim.is_none() && !known {
-        return vec![look(scene), (format!("{again} --verbose"), "every attempt at it")];
+        return vec![look(scene), (format!("{again} --verbose"), "every attempt")];
     }
     (telling(file).next)(file, scene, again)
 }

@@ -6,7 +6,7 @@ use crate::text::{
     options::TextOptions,
     page::{Page, Role},
 };
-use base::number::{bracketed, count, fixed, point, short};
+use base::number::{count, fixed, point, rounded_down, short};
 use check::proof::{
     result::ResultFile,
     rocking::{RockingAnswer, RockingFate, RockingFlip, RockingPlace, RockingSense},
@@ -16,8 +16,8 @@ pub(super) const TELLING: Telling = Telling {
     verb: "kinematic",
     asked: |_| {
         [
-            "What does its mechanism do on ground that moves?",
-            "Integrated as a machine of one degree of freedom from the mechanism that is proved.",
+            "How does the mechanism respond to ground motion?",
+            "The proved mechanism is integrated in time as a system with one degree of freedom.",
         ]
     },
     title,
@@ -41,28 +41,30 @@ fn title(file: &ResultFile) -> (String, Role) {
     let far = || {
         let over = short((a.greatest.way / a.thickness).abs());
         match part(a, a.greatest.turn) {
-            Some(part) => format!(
-                "{} of the way to its unstable equilibrium ({over} of its thickness)",
-                short(part)
-            ),
+            Some(part) => {
+                format!("{} of its unstable equilibrium ({over} of its thickness)", short(part))
+            }
             None => format!("{over} of its thickness"),
         }
     };
     match a.fate {
         RockingFate::Overturns => (
-            format!("overturns: past return at {} s", fixed(a.overturned_at.unwrap_or(0.0), 4)),
+            format!(
+                "overturns: past the point of no return at {} s",
+                fixed(a.overturned_at.unwrap_or(0.0), 4)
+            ),
             Role::Bad,
         ),
         RockingFate::Rests if a.released_at.is_none() => ("does not move".into(), Role::Good),
-        RockingFate::Rests => (format!("rocks up to {}, comes to rest", far()), Role::Good),
-        RockingFate::Rocks => (format!("still rocks at the end, up to {}", far()), Role::Unsure),
+        RockingFate::Rests => (format!("rocks up to {}, then comes to rest", far()), Role::Good),
+        RockingFate::Rocks => (format!("still rocking at the end, up to {}", far()), Role::Unsure),
     }
 }
 
 /// What it is.
 fn why(page: &mut Page, _: &ResultFile) {
     page.paragraph(
-        "The mechanism that limit analysis proves, as a machine of one degree of freedom, integrated through the motion of the ground; impacts, releases and turning points are found as roots. It starts to move where the acceleration passes the proved load factor.",
+        "The mechanism proved by limit analysis is integrated through the ground motion as a system with one degree of freedom. Impacts, releases and reversals are found as roots. Motion starts where the acceleration exceeds the proved load factor.",
     );
 }
 
@@ -71,7 +73,7 @@ fn rows(page: &mut Page, file: &ResultFile, _: TextOptions) {
     let Some(a) = file.answer.rocking() else { return };
     page.row("ground", [ground::words(&a.asked.ground)]);
     page.row("load factor", [start(a, "towards", &a.towards), start(a, "against", &a.against)]);
-    page.row("machine", [machine(a)]);
+    page.row("system", [machine(a)]);
     page.row("restitution", [restitution(a)]);
     page.row("history", history(a));
     page.row("scales", a.flips.iter().flat_map(|flips| scales(a, flips)));
@@ -80,18 +82,18 @@ fn rows(page: &mut Page, file: &ResultFile, _: TextOptions) {
         [match &a.idealised {
             None => "computed, not proved: exact for rigid blocks that neither slide nor bounce".into(),
             Some(why) => format!(
-                "computed, not proved, and an idealisation: {why}; `voussoir simulate --ground` runs all blocks"
+                "computed, not proved, and an idealisation: {why}; `voussoir simulate --ground` simulates all blocks"
             ),
         }],
     );
-    page.row("of it", a.notes.iter().cloned());
+    page.row("note", a.notes.iter().cloned());
 }
 
 fn start(a: &RockingAnswer, word: &str, sense: &RockingSense) -> String {
     let toward = point(a.toward);
     match sense.load_factor.found() {
-        Some((value, lower, upper)) => {
-            format!("{word} {toward}: moves beyond {} g (proved)", bracketed(value, lower, upper))
+        Some((value, ..)) => {
+            format!("{word} {toward}: moves beyond {} g (proved)", rounded_down(value))
         }
         None => format!("{word} {toward}: nothing moves (proved)"),
     }
@@ -118,7 +120,7 @@ fn restitution(a: &RockingAnswer) -> String {
     let own = said(a.towards.restitution, a.against.restitution);
     match a.asked.restitution {
         Some(_) => format!(
-            "{own} of the speed, as given; momentum would leave {}",
+            "{own} of the speed, as given; conservation of momentum would give {}",
             said(a.towards.conserving, a.against.conserving)
         ),
         None => format!("{own} of the speed, by conservation of momentum (no bounce)"),
@@ -159,7 +161,7 @@ fn scales(a: &RockingAnswer, flips: &[RockingFlip]) -> Vec<String> {
     };
     let [from, to] = a.asked.scan.unwrap_or_default().map(short);
     let said = format!(
-        "scales between {from} and {to}: more shaking may be safer, and flips closer together than the scan's step may stay unseen"
+        "scales between {from} and {to}: stronger shaking may be less harmful, and changes closer together than the step of the scan may be missed"
     );
     flips.iter().map(flip).chain([said]).collect()
 }

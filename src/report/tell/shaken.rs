@@ -19,9 +19,9 @@ pub(super) const TELLING: Telling = Telling {
     verb: "simulate",
     asked: |_| {
         [
-            "What do all its blocks do on ground that moves?",
-            "One history of a rigid-body simulation, not proved: ways of the centres of mass over the \
-             thickness of their blocks.",
+            "How do all blocks respond to ground motion?",
+            "One rigid-body simulation, computed, not proved. Displacements are those of the centres \
+             of mass, divided by the thickness of their blocks.",
         ]
     },
     title,
@@ -46,14 +46,14 @@ pub(super) fn title(file: &ResultFile) -> (String, Role) {
         }
         ShakenWord::Rests => (
             format!(
-                "moves by up to {} of a thickness, comes to rest {} from where it was",
+                "moves by up to {} of a thickness, comes to rest with a residual displacement of {}",
                 short(greatest),
                 short(a.residual())
             ),
             Role::Good,
         ),
         ShakenWord::Moves => (
-            format!("still moves at the end, by up to {} of a thickness", short(greatest)),
+            format!("still moving at the end, by up to {} of a thickness", short(greatest)),
             Role::Unsure,
         ),
     }
@@ -63,7 +63,7 @@ pub(super) fn title(file: &ResultFile) -> (String, Role) {
 pub(super) fn why(page: &mut Page, file: &ResultFile) {
     if file.answer.shaken().is_some() {
         page.paragraph(
-            "One history, computed and not proved: in the frame of the ground every block gets minus the acceleration of the ground, its full dead load from the start, at rest. Single histories of rocking hardly repeat; a share over many records says more.",
+            "One simulation, computed, not proved. Blocks start at rest under the full dead load; in the frame of the ground, each is accelerated by minus the ground acceleration. A single rocking history is hardly repeatable: a share over many records is more reliable.",
         );
     }
 }
@@ -78,7 +78,7 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
         "farthest",
         order.iter().take(shown).map(|b| {
             format!(
-                "{}: {} of its thickness of {} m at {} s, {} left; turned by up to {}°",
+                "{}: {} of its thickness of {} m at {} s, residual {}; rotated by up to {}°",
                 b.block,
                 short(b.greatest_over_thickness),
                 short(b.thickness),
@@ -93,11 +93,11 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
 
 fn steps(a: &ShakenAnswer) -> String {
     let stop = match a.stop {
-        Stop::Horizon => "to the end of its time",
-        Stop::Rest => "until everything was at rest",
-        Stop::Fallen => "until something overturned",
+        Stop::Horizon => "to the end of the time span",
+        Stop::Rest => "until all blocks were at rest",
+        Stop::Fallen => "until a block overturned",
         Stop::Stopped => "until it was stopped",
-        Stop::Broken => "until its numbers were no longer finite",
+        Stop::Broken => "until the simulation diverged",
     };
     format!(
         "{} of {}, {:?}, {} substeps each, {stop} ({} s)",
@@ -113,8 +113,11 @@ fn steps(a: &ShakenAnswer) -> String {
 /// What may come next.
 pub(super) fn next(again: &str) -> Vec<(String, &'static str)> {
     vec![
-        (format!("{again} --save result.json"), "keep the answer with its record"),
+        (format!("{again} --save result.json"), "save the answer with its record"),
         ("voussoir check result.json".into(), "run it again"),
-        (format!("{again} --chart ways.svg"), "ways of the blocks above the ground"),
+        (
+            format!("{again} --chart displacements.svg"),
+            "displacements of the blocks relative to the ground",
+        ),
     ]
 }

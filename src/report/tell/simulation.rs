@@ -21,7 +21,7 @@ pub(super) const TELLING: Telling = Telling {
     asked: |_| {
         [
             "What happens in time?",
-            "Computed by a rigid-body simulation, not proved; the verdict beside it is.",
+            "Computed by a rigid-body simulation, not proved; the verdict reported with it is proved.",
         ]
     },
     title,
@@ -43,10 +43,10 @@ pub(super) fn title(file: &ResultFile) -> (String, Role) {
     match (&file.simulation, file.answer.fate()) {
         // A proof outweighs what was seen, to whoever reads this line alone too.
         (_, Some(Fate::Stands)) if said == Some(Verdict::Conditional) => {
-            ("stands in time, but by proof only with a pre-stress".into(), Role::Bad)
+            ("stands in the simulation, but by proof only with self-stress".into(), Role::Bad)
         }
         (_, Some(Fate::Stands)) if said == Some(Verdict::Unstable) => {
-            ("stands in time, but falls by proof".into(), Role::Bad)
+            ("stands in the simulation, but is proved to fall".into(), Role::Bad)
         }
         (Some(s), Some(Fate::Falls)) => (
             format!(
@@ -58,7 +58,7 @@ pub(super) fn title(file: &ResultFile) -> (String, Role) {
         (_, Some(Fate::Falls)) => ("falls".into(), Role::Bad),
         (_, Some(Fate::Stands)) => ("stands".into(), Role::Good),
         (Some(s), _) if not_run(s).is_some() => {
-            ("undecided: not simulated, for it has dowels or grips".into(), Role::Unsure)
+            ("undecided: not simulated, because it has dowels or grips".into(), Role::Unsure)
         }
         _ => ("undecided".into(), Role::Unsure),
     }
@@ -76,11 +76,11 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
     let Some(run) = s.runs.last() else {
         return match not_run(s) {
             Some(why) => page.paragraph(&format!("Not simulated: {why}.")),
-            None => page.paragraph("Simulated in time: nothing is free, so nothing moves."),
+            None => page.paragraph("Simulated in time: no block is free, so nothing moves."),
         };
     };
     page.paragraph(&format!(
-        "Simulated in time, its loads applied without any pre-stress: {}",
+        "Simulated in time, with the loads applied without self-stress: {}",
         seen(s, run)
     ));
     if let Some(a) = &s.agreement {
@@ -114,7 +114,7 @@ fn seen(s: &Simulation, run: &Run) -> String {
             )
         }
         (Fate::Undecided, Stop::Broken) => {
-            format!("the engine's numbers broke down after {}.", seconds(run.time))
+            format!("the simulation diverged after {}.", seconds(run.time))
         }
         (Fate::Undecided, Stop::Rest) => {
             format!(
@@ -125,7 +125,7 @@ fn seen(s: &Simulation, run: &Run) -> String {
         }
         (Fate::Undecided, _) => {
             format!(
-                "after {} it neither rests nor has it fallen; {} moved farthest ({far}).",
+                "after {} it has neither come to rest nor fallen; {} moved farthest ({far}).",
                 seconds(run.horizon),
                 run.farthest
             )
@@ -136,33 +136,37 @@ fn seen(s: &Simulation, run: &Run) -> String {
 fn beside(a: &Agreement, s: &Simulation) -> String {
     let verdict = match a.verdict {
         Verdict::Stable => "it stands",
-        Verdict::Conditional => "it stands only with a pre-stress that nobody applied, so it falls",
+        Verdict::Conditional => {
+            "it stands only with self-stress that the loads do not produce, so it falls"
+        }
         Verdict::Unstable => "it falls",
         Verdict::Undecided => "nothing",
     };
     let mut text = match a.agrees {
-        Some(true) => format!("The verdict says the same: {verdict}."),
+        Some(true) => format!("The verdict agrees: {verdict}."),
         Some(false) if a.verdict == Verdict::Conditional => format!(
-            "The verdict says otherwise: {verdict}. Both are solutions of dry friction: forces that hold the blocks exist, and so does a motion without them. Which one comes depends on how tight the joints are; in the simulation they touched exactly, and the settling of the blocks squeezed them. Do not count on it."
+            "The verdict disagrees: {verdict}. Both are solutions with dry friction: forces that hold the blocks exist, and so does a motion without them. Which one occurs depends on how tight the joints are; in the simulation they touched exactly and were squeezed as the blocks settled. Do not rely on it."
         ),
         Some(false) if a.verdict == Verdict::Stable => format!(
-            "The verdict says otherwise: {verdict}. That forces hold it is proved; that the loads bring them about is computed, as this run is, and dry friction may have both answers. Do not count on it; look for joints near their limit, thin blocks or great ratios of mass and size."
+            "The verdict disagrees: {verdict}. That forces hold it is proved. That the loads produce them is computed, like this simulation, and dry friction may allow both answers. Do not rely on it; look for joints near their limit, thin blocks or large ratios of mass and size."
         ),
         Some(false) => format!(
-            "The verdict says otherwise: {verdict}. A proof outweighs a simulation; look for joints near their limit, thin blocks or great ratios of mass and size."
+            "The verdict disagrees: {verdict}. The proof takes precedence over the simulation; look for joints near their limit, thin blocks or large ratios of mass and size."
         ),
         None if a.verdict == Verdict::Undecided => {
             "The verdict is undecided, so there is nothing to compare with.".into()
         }
-        None => format!("The verdict says that {verdict}."),
+        None => format!("The verdict is that {verdict}."),
     };
     if let Some(motion) = a.motion {
-        text.push_str(&format!(" Its first motion and the mechanism correlate by {motion:.3}."));
+        text.push_str(&format!(
+            " The correlation of the first motion with the mechanism is {motion:.3}."
+        ));
     }
     if let Some(f) = &a.forces {
-        let why = if f.determinate { "" } else { "; statics alone does not fix them" };
+        let why = if f.determinate { "" } else { "; equilibrium alone does not determine them" };
         text.push_str(&format!(
-            " The forces between {} of blocks differ from the computed ones by {} of their size on the average, at most by {} of the largest, on {} | {}{why}.",
+            " The forces between {} of blocks differ from the computed ones by {} of their size on average, and by at most {} of the largest, at {} | {}{why}.",
             count(f.pairs, "pair"),
             percent(f.mean),
             percent(f.largest),
@@ -176,7 +180,7 @@ fn beside(a: &Agreement, s: &Simulation) -> String {
         } else {
             format!("{:.0e}", s.reaction_error)
         };
-        text.push_str(&format!(" Reactions and loads cancel up to {left} of the loads."));
+        text.push_str(&format!(" Reactions balance the loads to within {left} of the loads."));
     }
     text
 }
@@ -189,7 +193,7 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
     let moved = s.first_motion.iter().filter(|_| s.fate != Fate::Stands).map(|m| {
         let turn = m.turn.iter().map(|c| c * c).sum::<f64>().sqrt().to_degrees();
         format!(
-            "{:<width$}  by {} m, turned by {}°",
+            "{:<width$}  by {} m, rotated by {}°",
             m.block,
             point(clean(m.way)),
             if turn > NO_TURN { rounded(turn) } else { "0".into() }
@@ -223,7 +227,7 @@ pub(super) fn next(file: &ResultFile, scene: &str, again: &str) -> Vec<(String, 
     if !again.contains("--load-factor") {
         list.push((format!("voussoir assess {scene}"), "the verdict, with its proof"));
     }
-    list.push((format!("{again} --csv motion.csv"), "where every block was, time by time"));
+    list.push((format!("{again} --csv motion.csv"), "the position of every block over time"));
     list
 }
 

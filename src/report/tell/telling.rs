@@ -67,7 +67,7 @@ pub(super) fn look(scene: &str) -> (String, &'static str) {
 /// The commands that keep an answer and verify it.
 pub(super) fn keep(again: &str) -> [(String, &'static str); 2] {
     [
-        (format!("{again} --save result.json"), "keep the answer with its proof"),
-        ("voussoir check result.json".into(), "verify it again, from the scene"),
+        (format!("{again} --save result.json"), "save the answer with its proof"),
+        ("voussoir check result.json".into(), "verify it from the scene alone"),
     ]
 }

@@ -7,7 +7,7 @@ use crate::text::{
 };
 use analysis::Outcome;
 use base::{
-    number::{bracketed, ends, fixed, point, short},
+    number::{bracketed, ends, fixed, point, rounded_down, rounded_up, short},
     tolerance,
 };
 use check::{
@@ -34,9 +34,11 @@ pub(super) const TELLING: Telling = Telling {
     ..PLAIN
 };
 
-fn value(v: &Bound, least: f64) -> Option<String> {
-    let (value, lower, upper) = (v.value?, v.lower?, v.upper?);
-    Some(format!("{} N", bracketed(value, lower.min(value - least), upper.max(value + least))))
+/// An end of the range, rounded outwards.
+fn value(v: &Bound, least: f64, rounded: fn(f64) -> String) -> Option<String> {
+    let value = v.value?;
+    // What the sections cannot tell from nothing is nothing.
+    Some(format!("{} N", if value.abs() <= least { "0".into() } else { rounded(value) }))
 }
 
 /// Smaller thrusts beside what the sections carry are rounding, N.
@@ -62,26 +64,26 @@ fn what(t: &ThrustAnswer) -> String {
 pub(super) fn title(file: &ResultFile) -> (String, Role) {
     let Some(t) = file.answer.thrust() else {
         return match file.answer.verdict() {
-            Some(Verdict::Unstable) => ("falls, so there is no thrust".into(), Role::Bad),
+            Some(Verdict::Unstable) => ("falls: there is no thrust".into(), Role::Bad),
             _ => ("undecided".into(), Role::Unsure),
         };
     };
     let (what, unit) = (what(t), resolution(file));
     let text = match (
-        value(&t.least, unit),
-        value(&t.greatest, unit),
+        value(&t.least, unit, rounded_down),
+        value(&t.greatest, unit, rounded_up),
         t.least.status,
         t.greatest.status,
     ) {
         (Some(low), Some(high), ..) => format!("{what} from {low} to {high}"),
         (Some(low), None, _, Outcome::Unbounded) => {
-            format!("{what} from {low} without end")
+            format!("{what} from {low}, without an upper limit")
         }
         (None, Some(high), Outcome::Unbounded, _) => {
-            format!("{what} up to {high}, in the other direction without end")
+            format!("{what} up to {high}, without a limit in the other direction")
         }
         (None, None, Outcome::Unbounded, Outcome::Unbounded) => {
-            format!("{what} without end in both directions")
+            format!("{what} without a limit in either direction")
         }
         _ => return (format!("{what} undecided"), Role::Unsure),
     };
@@ -93,22 +95,22 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
     let Some(t) = file.answer.thrust() else { return super::assess::verdict(page, file) };
     match (&t.support, t.direction, &t.member) {
         (Some(id), Some(direction), None) => page.paragraph(&format!(
-            "The thrust is the horizontal force of the blocks on {id} towards {}. Contact forces inside the friction cones reach its least value when the support yields and its greatest when it is pushed in; the mechanisms of the two movements prove that no others go further.",
+            "The thrust is the horizontal force of the blocks on {id} towards {}. Contact forces inside the friction cones reach its least value as the support gives way and its greatest as it is pushed in; the mechanisms of the two movements prove both ends.",
             point(direction)
         )),
         (_, Some(_), Some(id)) => page.paragraph(&format!(
-            "The shear is the force of the dowel on the second block that it joins. Forces inside the friction cones and the strengths of the members balance the dead load with any shear of {id} in this direction from the least to the greatest; mechanisms of the scene without it, or its own strength, prove that no others go further."
+            "The shear is the force of the dowel on the second block that it joins. Forces inside the friction cones and the strengths of the members balance the dead load with any shear of {id} in this direction from the least to the greatest; mechanisms of the scene without it, or its own strength, prove both ends."
         )),
         (.., Some(id)) => page.paragraph(&format!(
-            "Forces inside the friction cones and the strengths of the members balance the dead load with any force in {id} from the least to the greatest (tension > 0); mechanisms of the scene without it, or its own bounds, prove that no others go further."
+            "Forces inside the friction cones and the strengths of the members balance the dead load with any force in {id} from the least to the greatest (tension > 0); mechanisms of the scene without it, or its own strength, prove both ends."
         )),
         _ => {}
     }
     if [t.least.status, t.greatest.status].contains(&Outcome::Unbounded) {
         page.paragraph(if t.member.is_some() {
-            "Where it has no end, the member stresses blocks or members against each other, as much as one likes."
+            "It has no limit where the member can stress blocks or members against each other at will."
         } else {
-            "Where it has no end, the blocks are wedged between supports: they hold any push of one against the other."
+            "It has no limit where the blocks are wedged between supports and hold any push of one against the other."
         });
     }
     if t.member.is_none() {
@@ -116,10 +118,10 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
     }
     let text = match file.dead_load.as_ref().and_then(|d| d.answer.verdict()) {
         Some(Verdict::Conditional) => {
-            "It stands only with a pre-stress that nobody applied: the loads do not produce such forces."
+            "It stands only with self-stress: the loads do not produce such forces."
         }
         Some(Verdict::Undecided) => {
-            "Whether the loads produce such forces with dry friction stayed undecided."
+            "Whether the loads produce such forces with dry friction is undecided."
         }
         _ => return,
     };
@@ -131,16 +133,16 @@ fn factor(t: &ThrustAnswer, file: &ResultFile) -> String {
     match (t.geometric_factor, why) {
         (Some(f), _) => match (f.value, f.upper) {
             (Some(v), Some(upper)) => format!(
-                "Geometric safety factor {}: all sections can be shrunk about their centroids by this and still hold a line of thrust (Heyman 1982).",
+                "Geometric safety factor {}: a line of thrust still fits when every section is shrunk about its centroid by this factor (Heyman 1982).",
                 fixed(v, base::number::decimals(v, f.lower, upper).min(6))
             ),
             _ => format!(
-                "Geometric safety factor above {}: lines of thrust pass as close to the middle of every section as one likes.",
+                "Geometric safety factor above {}: a line of thrust can pass through the middle of every section.",
                 short(f.lower)
             ),
         },
         (None, Some(why)) => format!("No geometric safety factor: {why}."),
-        (None, None) => "No geometric safety factor came out.".into(),
+        (None, None) => "The geometric safety factor is undecided.".into(),
     }
 }
 
@@ -160,14 +162,11 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
                 let [low, high] = ends(value, lower, upper);
                 format!("{} N, between {low} and {high} N", bracketed(value, lower, upper))
             }
-            (Outcome::Unbounded, ..) => "without end".into(),
+            (Outcome::Unbounded, ..) => "without a limit".into(),
             _ => "undecided".into(),
         };
-        page.row(
-            label,
-            std::iter::once(text)
-                .chain(certificate.verified().into_iter().map(|v| format!("  {v}"))),
-        );
+        let proof = certificate.verified().into_iter().filter(|_| options.verbose);
+        page.row(label, std::iter::once(text).chain(proof.map(|v| format!("  {v}"))));
     }
     for (label, line) in
         [("line, least", least as fn(&ThrustSection) -> Option<&Line>), ("greatest", greatest)]
@@ -176,7 +175,7 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
             proof.sections.iter().filter_map(|s| Some((s, line(s)?))).collect();
         page.row(label, cut(&table(&list), SECTIONS, options));
     }
-    let legend = "normal and shear force, eccentricity (of the way to the edge), centre of pressure; kern: the whole section presses";
+    let legend = "normal and shear force, eccentricity (share of the distance to the edge), centre of pressure; kern: the whole section is compressed";
     if !proof.sections.is_empty() {
         page.row("", [legend.to_string()]);
     }

@@ -1,7 +1,7 @@
 //! Tilts for people.
 
 use super::{
-    factor::{self, Dry, at_rest_to, degrees, dry_of, dry_value, falls_by_itself, found, status},
+    factor::{self, Dry, at_rest_to, dry_of, dry_value, falls_by_itself, found, status},
     telling::{FactorWords, PLAIN, Telling},
 };
 use crate::text::{
@@ -9,7 +9,7 @@ use crate::text::{
     page::{Page, Role},
 };
 use analysis::{Outcome, coulomb::Found};
-use base::number::point;
+use base::number::{point, rounded_up};
 use check::proof::result::ResultFile;
 
 pub(super) const TELLING: Telling = Telling {
@@ -17,8 +17,8 @@ pub(super) const TELLING: Telling = Telling {
     asked: |_| {
         [
             "At what inclination of the ground does it fall?",
-            "Gravity keeps its size and is turned by this angle towards the direction given; weights \
-             and dead loads turn with it.",
+            "Gravity keeps its size and is rotated by this angle towards the direction given; weights \
+             and dead loads rotate with it.",
         ]
     },
     title,
@@ -34,48 +34,62 @@ const TILT: FactorWords = FactorWords { name: "tilt", without: "when level", til
 /// The tilt in a line.
 fn title(file: &ResultFile) -> (String, Role) {
     let toward = file.answer.toward().map(|d| format!(" towards {}", point(d))).unwrap_or_default();
+    let dry = dry_of(file);
+    let role = if matches!(dry, Dry::Never) { Role::Bad } else { Role::Value };
+    let moves = "moves even when level with dry friction";
     match (status(&file.answer), found(&file.answer)) {
-                (Outcome::Found, Some(_)) if falls_by_itself(file) => ("falls even when level".to_string(), Role::Bad),
-                (Outcome::Found, Some(l)) => {
-                    let bound = degrees(l);
-                    let text = match dry_of(file) {
-                        Dry::Same => format!("falls at a tilt of {bound}°{toward}"),
-                        Dry::Other(v) => {
-                            format!("falls at a tilt of {}°{toward} with dry friction, at {bound}° at the latest", at_rest_to(v))
-                        }
-                        Dry::Never => format!("not even at rest when level with dry friction (with a pre-stress up to {bound}°{toward})"),
-                        Dry::UpTo(v) => {
-                            let up_to = at_rest_to(v);
-                            format!("falls at a tilt of {bound}°{toward} at the latest; with dry friction at rest up to {up_to}°")
-                        }
-                        Dry::Undecided => format!("falls at a tilt of {bound}°{toward} at the latest; with dry friction undecided"),
-                    };
-                    (text, if matches!(dry_of(file), Dry::Never) { Role::Bad } else { Role::Value })
-                }
-                (Outcome::Unbounded, _) => match dry_value(file) {
-                    Some(v) => {
-                        let angle = at_rest_to(v);
-                        let text =
-                            format!("stands at every tilt where joints open as they slide; falls at {angle}°{toward} with dry friction");
-                        (text, Role::Value)
-                    }
-                    None => match dry_of(file) {
-                        Dry::Never => ("not even at rest when level with dry friction".to_string(), Role::Bad),
-                        Dry::UpTo(v) => {
-                            let up_to = at_rest_to(v);
-                            let text = "stands at every tilt where joints open as they slide; with dry friction at rest up to";
-                            (format!("{text} {up_to}°{toward}, then undecided"), Role::Unsure)
-                        }
-                        Dry::Undecided => {
-                            ("stands at every tilt where joints open as they slide; with dry friction undecided".to_string(), Role::Unsure)
-                        }
-                        Dry::Same | Dry::Other(_) => ("stands at every tilt below 90°".to_string(), Role::Good),
-                    },
-                },
-                (Outcome::Impossible, _) => (format!("falls, however it is tilted{toward}"), Role::Bad),
-                _ => (format!("undecided{toward}"), Role::Unsure),
+        (Outcome::Found, Some(_)) if falls_by_itself(file) => {
+            ("falls even when level".to_string(), Role::Bad)
+        }
+        (Outcome::Found, Some((value, _, upper))) => {
+            let most = rounded_up(upper.atan().to_degrees());
+            let text = match dry {
+                Dry::Same => format!("falls at a tilt of {}°{toward}", at_rest_to(value)),
+                Dry::Other(v) => format!(
+                    "falls at a tilt of {}°{toward} with dry friction (proved upper bound {most}°)",
+                    at_rest_to(v)
+                ),
+                Dry::Never => format!("{moves} (with self-stress up to {most}°{toward})"),
+                Dry::UpTo(v) => format!(
+                    "stands up to a tilt of {}°{toward} at least with dry friction, falls at {most}° at the latest",
+                    at_rest_to(v)
+                ),
+                Dry::Undecided => format!(
+                    "falls at a tilt of {most}°{toward} at the latest; with dry friction undecided"
+                ),
+            };
+            (text, role)
+        }
+        (Outcome::Unbounded, _) => match (dry_value(file), dry) {
+            (Some(v), _) => (
+                format!(
+                    "falls at a tilt of {}°{toward} with dry friction ({WEDGED})",
+                    at_rest_to(v)
+                ),
+                Role::Value,
+            ),
+            (None, Dry::Never) => (moves.to_string(), Role::Bad),
+            (None, Dry::UpTo(v)) => (
+                format!(
+                    "stands up to a tilt of {}°{toward} at least with dry friction, undecided beyond ({WEDGED})",
+                    at_rest_to(v)
+                ),
+                Role::Unsure,
+            ),
+            (None, Dry::Undecided) => {
+                (format!("with dry friction undecided ({WEDGED})"), Role::Unsure)
             }
+            (None, Dry::Same | Dry::Other(_)) => {
+                ("stands at every tilt below 90°".to_string(), Role::Good)
+            }
+        },
+        (Outcome::Impossible, _) => (format!("falls, however it is tilted{toward}"), Role::Bad),
+        _ => (format!("undecided{toward}"), Role::Unsure),
+    }
 }
+
+/// Where only dry friction sets a limit.
+const WEDGED: &str = "at no tilt if joints that slide opened";
 
 /// Every direction of a tilt.
 pub(super) fn directions(page: &mut Page, file: &ResultFile, options: TextOptions) {
@@ -98,12 +112,14 @@ pub(super) fn directions(page: &mut Page, file: &ResultFile, options: TextOption
                 Some((Found::FixedPoint | Found::Rests | Found::RestsBelow, Some(angle))) => {
                     format!(", with dry friction {angle}°")
                 }
-                Some((Found::NotAtRest, _)) => ", with dry friction not even level".into(),
+                Some((Found::NotAtRest, _)) => {
+                    ", with dry friction it moves even when level".into()
+                }
                 Some((Found::Undecided, _)) => ", with dry friction undecided".into(),
                 _ => String::new(),
             };
             let answer = match (status(&d.answer), found(&d.answer)) {
-                (Outcome::Found, Some(l)) => format!("{}°{dry}", degrees(l)),
+                (Outcome::Found, Some((value, ..))) => format!("{}°{dry}", at_rest_to(value)),
                 (Outcome::Unbounded, _) => format!("stands at every tilt below 90°{dry}"),
                 (Outcome::Impossible, _) => "falls at every tilt".into(),
                 _ => "undecided".into(),

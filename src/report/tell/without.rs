@@ -19,13 +19,13 @@ pub(super) const TELLING: Telling = Telling {
     verb: "without",
     asked: |_| {
         [
-            "Which blocks may be taken out, one at a time, with everything left standing?",
-            "Each block is taken out by itself, and what is left has its own verdict and proof.",
+            "Which blocks can be taken out, one at a time, while the rest still stands?",
+            "Each block is taken out by itself; the rest has its own verdict and proof.",
         ]
     },
     title: |file| said(file).map_or(("undecided".into(), Role::Unsure), title),
     why: |page, _| {
-        page.paragraph("Each block is taken out by itself and the rest asked whether it stands, with a proof. Two blocks that can each be taken out cannot always be taken out together.");
+        page.paragraph("Each block is taken out by itself, and whether the rest stands is proved. Two blocks that can each be taken out cannot always be taken out together.");
     },
     rows,
     csv: Some(csv),
@@ -53,7 +53,7 @@ fn title(a: &WithoutAnswer) -> (String, Role) {
     match (a.removable.len(), open) {
         (0, 0) => (format!("none of {all} can be taken out"), Role::Bad),
         (0, _) => {
-            (format!("no block is proved to be one that can be taken out{undecided}"), Role::Unsure)
+            (format!("for no block is it proved that it can be taken out{undecided}"), Role::Unsure)
         }
         (n, _) => {
             let names = first(&a.removable, NAMES);
@@ -76,7 +76,7 @@ fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
     for (label, verdict) in [
         ("taken out", Verdict::Stable),
         ("falls", Verdict::Unstable),
-        ("pre-stress", Verdict::Conditional),
+        ("self-stress", Verdict::Conditional),
         ("undecided", Verdict::Undecided),
     ] {
         let list: Vec<&str> = a.with(verdict).map(|w| w.block.as_str()).collect();
@@ -97,7 +97,7 @@ fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
 /// The blocks, a row each: the verdict on what is left, its least equilibrium error (lower and upper end,
 /// g), and the blocks that move.
 fn csv(file: &ResultFile) -> Result<String, ReportError> {
-    let a = said(file).ok_or_else(|| ReportError::new("this is no result of `without`"))?;
+    let a = said(file).ok_or_else(|| ReportError::new("this is not a result of `without`"))?;
     let mut table = Table::new();
     table.write_record([
         "block",

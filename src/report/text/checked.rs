@@ -26,8 +26,8 @@ pub fn verification(
         (true, _) => ("refuted", Role::Bad),
         (false, _) if in_time => {
             let words = [
-                "not confirmed: run again, the engine does something else, or was not run",
-                "confirmed, not proved: run again, the engine does the same",
+                "not confirmed: a second run of the engine differs, or was not made",
+                "confirmed, not proved: a second run of the engine gives the same",
             ];
             (words[usize::from(again)], if again { Role::Good } else { Role::Unsure })
         }
@@ -40,18 +40,18 @@ pub fn verification(
     let computed = verification.computed() && !in_time;
     let text = match law {
         Some(Law::Associative) if !verification.refuted() => {
-            format!("{text}; whether a pre-stress is needed was not asked")
+            format!("{text}; whether self-stress is needed was not asked")
         }
         _ if computed && answer.is_some_and(|a| a.rocking().is_some()) => {
-            format!("where it starts is {text}; its history is computed, not proved")
+            format!("its start is {text}; its history is computed, not proved")
         }
         _ if computed && answer.is_some_and(|a| a.path().is_some()) => {
-            format!(
-                "{text}, point by point; that it goes from one to the next is computed, not proved"
-            )
+            format!("{text}, point by point; the motion between points is computed, not proved")
         }
         _ if computed => {
-            format!("{text}; that states under dry friction rest or move is computed, not proved")
+            format!(
+                "{text}; whether states under dry friction rest or move is computed, not proved"
+            )
         }
         _ => text,
     };
@@ -65,11 +65,11 @@ pub fn verification(
         page.paragraph(title);
         page.row("fails", findings.fails.iter().cloned());
         page.row("holds", findings.holds.iter().cloned());
-        page.row("open", findings.unchecked.iter().cloned());
+        page.row("undecided", findings.unchecked.iter().cloned());
     }
     if !verification.scene.is_empty() {
         page.blank();
-        page.paragraph("what is to be known about the scene");
+        page.paragraph("about the scene");
         page.row("note", verification.scene.iter().map(|f| f.text.clone()));
     }
     page
@@ -95,7 +95,7 @@ pub fn inspection(
         let most = if strength.is_finite() {
             format!("at most {} N", short(strength))
         } else {
-            "never yields".into()
+            "without a limit".into()
         };
         format!("{} ({}): {most}", m.id, m.kind.word())
     };

@@ -1,6 +1,6 @@
 //! Contacts that were left out, and what the answer is with them.
 
-use base::number::{fixed, short};
+use base::number::{rounded_down, short};
 use check::question::QuestionKind;
 use check::{
     proof::result::ResultFile,
@@ -18,7 +18,7 @@ pub fn left_out(file: &ResultFile) -> Option<String> {
     let other = match &said.closed {
         Some(Closed { difference: Difference::None, .. }) => return None,
         Some(closed) => format!("with them closed {}", closed_words(file, closed)),
-        None => "with them it may be another one".to_string(),
+        None => "with them the answer may differ".to_string(),
     };
     let l = said.contacts;
     let overlaps = (l.overlaps > 0).then(|| {
@@ -38,7 +38,7 @@ fn pairs(n: usize) -> String {
 fn closed_words(file: &ResultFile, closed: &Closed) -> String {
     let bound = |v: f64| match file.question.kind() {
         QuestionKind::Tilt => format!("it falls at {:.4}°", v.atan().to_degrees()),
-        _ => format!("λ = {}", fixed(v, 6)),
+        _ => format!("the load factor is {}", rounded_down(v)),
     };
     let text = match &closed.answer {
         ClosedAnswer::Thrust { least, greatest } => {
@@ -59,7 +59,7 @@ fn closed_words(file: &ResultFile, closed: &Closed) -> String {
     // The bound of the answer itself is what it is to be held against.
     let dry = file.dry.is_some() || file.motion.is_some();
     match closed.law {
-        Law::Associative if dry => format!("{text} where joints open as they slide"),
+        Law::Associative if dry => format!("{text} if joints that slide open"),
         _ => text,
     }
 }
@@ -81,7 +81,7 @@ fn flips(values: &[f64], start: Verdict) -> String {
 fn verdict(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Stable => "it stands",
-        Verdict::Conditional => "it stands only with a pre-stress",
+        Verdict::Conditional => "it stands only with self-stress",
         Verdict::Unstable => "it falls",
         Verdict::Undecided => "it is undecided",
     }
@@ -90,7 +90,7 @@ fn verdict(verdict: Verdict) -> &'static str {
 fn end(end: &ClosedEnd) -> String {
     match *end {
         ClosedEnd { status: Outcome::Found, value: Some(v) } => format!("{} N", short(v)),
-        ClosedEnd { status: Outcome::Unbounded, .. } => "without end".into(),
+        ClosedEnd { status: Outcome::Unbounded, .. } => "without a limit".into(),
         _ => "undecided".into(),
     }
 }

@@ -22,7 +22,10 @@ pub use template::template;
 use crate::tell;
 use analysis::Attempt;
 use base::number::{count, seconds};
-use check::proof::{result::ResultFile, work::Work};
+use check::{
+    proof::{result::ResultFile, work::Work},
+    verdict::{claim::Claim, exact::Grade},
+};
 use solve::Engine;
 
 /// How a question was put, for the commands that may come next.
@@ -52,7 +55,8 @@ pub fn render(file: &ResultFile, asked: Asked, options: TextOptions, layout: Lay
     mechanism::members(&mut page, file, options);
     (telling.rows)(&mut page, file, options);
     tell::part(&mut page, file);
-    page.row("proof", file.certificate.verified());
+    tell::digits(&mut page, file, options);
+    page.row("proof", proof(file, options));
     let s = &file.scene.counts;
     page.row(
         "scene",
@@ -67,7 +71,11 @@ pub fn render(file: &ResultFile, asked: Asked, options: TextOptions, layout: Lay
     );
     bridge::rows(&mut page, file);
     page.row("doubt", file.run.doubt.iter().map(|d| format!("{}; {}", d.evidence, d.next)));
-    page.row("left out", cut(&file.run.left_out, SHOWN, options));
+    if options.verbose {
+        page.row("reduced", file.run.left_out.iter().cloned());
+    } else {
+        page.row("reduced", reduced(file));
+    }
     page.row(
         "note",
         cut(&file.warnings().map(|f| f.text.clone()).collect::<Vec<_>>(), NOTES, options),
@@ -81,6 +89,52 @@ pub fn render(file: &ResultFile, asked: Asked, options: TextOptions, layout: Lay
     page.blank();
     page.commands("next", &tell::next(file, asked.scene, &command(file, asked)));
     page
+}
+
+/// What proves the answer, in a line; what was computed to verify it for who asks for everything.
+fn proof(file: &ResultFile, options: TextOptions) -> Vec<String> {
+    let verified = file.certificate.verified();
+    let Some(words) = file.certificate.claim.as_ref().map(evidence) else { return verified };
+    let line = match file.answer.proof() {
+        Some(Grade::ToRounding(by)) => format!("proved to rounding ({by:.0e}): {words}"),
+        Some(Grade::Exact) => format!("proved exactly: {words}"),
+        None => format!("proved: {words}"),
+    };
+    let all = verified.into_iter().filter(|_| options.verbose);
+    std::iter::once(line).chain(all).collect()
+}
+
+/// The evidence of a claim.
+fn evidence(claim: &Claim) -> &'static str {
+    match claim {
+        Claim::Stable => "balanced forces inside all friction cones",
+        Claim::Conditional => {
+            "balanced forces inside all friction cones, and a motion that obeys Coulomb's law without their self-stress"
+        }
+        Claim::Unstable => "a mechanism that gains power while no joint closes",
+        Claim::LoadFactor { .. } => "balanced forces below the value, a mechanism above it",
+        Claim::DryLoadFactor { .. } => "forces and a mechanism that together obey Coulomb's law",
+        Claim::Unbounded { .. } => "forces that balance the live load alone",
+        Claim::Impossible => "a mechanism that gains power, whatever the live load",
+        Claim::Thrust { .. } | Claim::MemberForce { .. } => {
+            "balanced forces up to each end, a mechanism beyond it"
+        }
+        Claim::EndlessMemberForce { .. } | Claim::EndlessThrust { .. } => {
+            "forces that balance without any load"
+        }
+    }
+}
+
+/// What made the programs smaller, without its numbers.
+fn reduced(file: &ResultFile) -> Option<String> {
+    let by: Vec<&str> = file
+        .run
+        .left_out
+        .iter()
+        .filter_map(|line| line.split([':', '(']).next())
+        .map(str::trim)
+        .collect();
+    (!by.is_empty()).then(|| format!("{}; nothing is neglected", by.join(", ")))
 }
 
 /// How many members there are beside the contacts.

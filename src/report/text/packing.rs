@@ -6,7 +6,7 @@ use analysis::{
     coulomb::Found,
     fabric::{FORCE_BIN, FORCE_BINS},
 };
-use base::number::{bracketed, computed_tilt, count, point, seconds, short};
+use base::number::{count, point, rounded_down, seconds, short};
 use check::proof::packing::{PackingDirection, PackingFile};
 
 /// The answer about a packing as a page.
@@ -68,10 +68,10 @@ pub fn packing(file: &PackingFile, options: TextOptions, layout: Layout) -> Page
 
 fn angle(d: &PackingDirection) -> String {
     let bound = match (d.status, d.tilt_deg, d.bracket_deg) {
-        (Outcome::Found, Some(tilt), Some([lower, upper])) => bracketed(tilt, lower, upper),
+        (Outcome::Found, Some(tilt), Some(_)) => rounded_down(tilt),
         (Outcome::Unbounded, ..) => {
             return dry(d).map_or("wedged: stands at every tilt below 90°".into(), |v| {
-                format!("{}° with dry friction, else wedged", computed_tilt(v))
+                format!("{}° with dry friction, else wedged", rounded_down(v))
             });
         }
         (Outcome::Impossible, ..) => return "falls, however it is tilted".into(),
@@ -82,10 +82,10 @@ fn angle(d: &PackingDirection) -> String {
             format!("falls even when level, at most {bound}°")
         }
         (Some(Found::NotAtRest), _) => {
-            format!("not even level with dry friction, at most {bound}° with a pre-stress")
+            format!("moves even when level with dry friction, at most {bound}° with self-stress")
         }
         (Some(Found::NothingSlides), _) => format!("{bound}°, with dry friction as well"),
-        (_, Some(v)) => format!("{}° with dry friction, at most {bound}°", computed_tilt(v)),
+        (_, Some(v)) => format!("{}° with dry friction, at most {bound}°", rounded_down(v)),
         (Some(_), None) => format!("at most {bound}°; with dry friction undecided"),
         (None, None) => format!("{bound}° at most"),
     }

@@ -88,6 +88,13 @@ impl Page {
         self.lines.push(line);
     }
 
+    /// The first line alone.
+    #[must_use]
+    pub fn first_line(mut self) -> Self {
+        self.lines.truncate(1);
+        self
+    }
+
     /// Leaves out a labelled row, with the lines that go on from it.
     pub fn drop_row(&mut self, label: &str) {
         let mut inside = false;

@@ -40,7 +40,7 @@ impl Default for Course {
             name: "simulation".into(),
             quantity: TIME,
             unit: "s",
-            way: "way in the simulation",
+            way: "displacement in the simulation",
             opens: None,
             words: Vec::new(),
             hidden: Vec::new(),
@@ -61,14 +61,14 @@ impl Course {
     /// That of a path.
     pub fn of(path: &PathResult) -> Self {
         let (quantity, unit) = match path.driven_by {
-            DrivenBy::Supports(_) => ("Share of the movement", ""),
-            DrivenBy::Control { .. } => ("Way of the point", "m"),
+            DrivenBy::Supports(_) => ("Share of the imposed movement", ""),
+            DrivenBy::Control { .. } => ("Displacement of the control point", "m"),
         };
         Self {
             name: "path, point by point".into(),
             quantity,
             unit,
-            way: "way on the path",
+            way: "displacement along the path",
             ..Self::default()
         }
     }

@@ -72,7 +72,7 @@ pub struct View {
     pub members: Vec<ViewMember>,
     /// Systems of contact forces; the first one goes with the answer.
     pub states: Vec<ViewState>,
-    /// Pressure in joints that yield.
+    /// Pressure in elastic joints.
     pub pressures: Vec<ViewPressure>,
     /// Mechanisms, or displacements; the first one goes with the answer.
     pub motions: Vec<ViewMotion>,
@@ -160,7 +160,7 @@ impl View {
         let mut view = Self::bare(model);
         view.name.clone_from(&file.scene.name);
         if let Some(up) = tipped(view.up, file) {
-            view.caption = format!("tipped by {}°", short(up.angle(&view.up).to_degrees()));
+            view.caption = format!("tilted by {}°", short(up.angle(&view.up).to_degrees()));
             view.up = up;
         }
         view.front = front(view.up, view.high - view.low);

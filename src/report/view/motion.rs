@@ -83,7 +83,7 @@ impl ViewMotion {
         Some(Self { part, name: name.into(), rates, reach, marks, is_displacement: false })
     }
 
-    /// Small displacements, of joints that yield.
+    /// Small displacements, of elastic joints.
     fn displacements(rates: Vec<Rate>, bodies: &[BlockView]) -> Option<Self> {
         let reach = bodies.iter().zip(&rates).map(|(b, r)| speed(b, r)).fold(0.0, f64::max);
         (reach.is_finite() && reach > 0.0).then(|| Self {
@@ -137,18 +137,18 @@ pub(super) fn of(
         |c: &Certificate| !matches!(c.claim, None | Some(Claim::Stable | Claim::Unbounded { .. }));
     list.push((
         ViewPart::Answer,
-        if file.answer.as_verdict().is_some() { "how it moves" } else { "how it fails" },
+        if file.answer.as_verdict().is_some() { "mechanism" } else { "collapse mechanism" },
         &file.certificate,
     ));
     if let Some(dry) = file.dry.as_ref().filter(|d| d.found != Found::NothingSlides) {
-        list.push((ViewPart::Dry, "how it fails with dry friction", &dry.certificate));
+        list.push((ViewPart::Dry, "collapse mechanism with dry friction", &dry.certificate));
     }
     if let Some(thrust) = &file.thrust {
-        list.push((ViewPart::Least, "the support yields", &thrust.least));
-        list.push((ViewPart::Greatest, "the support is pushed in", &thrust.greatest));
+        list.push((ViewPart::Least, "mechanism at the least thrust", &thrust.least));
+        list.push((ViewPart::Greatest, "mechanism at the greatest thrust", &thrust.greatest));
     }
     if let Some(dead) = &file.dead_load {
-        list.push((ViewPart::Dead, "how it moves under the dead load", &dead.certificate));
+        list.push((ViewPart::Dead, "mechanism under the dead load", &dead.certificate));
     }
     let mut motions = Vec::new();
     for (part, name, certificate) in list.into_iter().filter(|(_, _, c)| moves(c)) {

@@ -1,4 +1,4 @@
-//! What presses in joints that yield, and where their blocks go: of a state under its dead load.
+//! What presses in elastic joints, and where their blocks go: of a state under its dead load.
 
 use base::plane::clip::inside;
 use check::{

@@ -54,7 +54,7 @@ impl View {
         let last = (list.len() - 1).max(1) as f64;
         let of = (0..self.bodies.len()).map(|i| first(i).map(|k| k as f64 / last)).collect();
         let ends = [1, list.len()].map(|k| format!("stage {k}"));
-        self.values = Some(ViewValues { name: "Stage at which it comes".into(), ends, of });
+        self.values = Some(ViewValues { name: "Stage of placement".into(), ends, of });
     }
 
     /// Every block where it is.
@@ -95,7 +95,7 @@ impl View {
         let value = self.values.as_ref().filter(|_| self.film.is_empty()).and_then(|v| v.of[i]);
         match value {
             Some(0.0) => (CLASSES[0], "can be taken out"),
-            Some(0.5) => (CLASSES[1], "pre-stress, or undecided"),
+            Some(0.5) => (CLASSES[1], "self-stress, or undecided"),
             _ => ("block", ""),
         }
     }
@@ -104,7 +104,7 @@ impl View {
 fn words(k: usize, s: &StageResult) -> String {
     let verdict = match s.stands() {
         Verdict::Stable => "stands",
-        Verdict::Conditional => "only with a pre-stress",
+        Verdict::Conditional => "only with self-stress",
         Verdict::Unstable => "falls",
         Verdict::Undecided => "undecided",
     };

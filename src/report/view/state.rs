@@ -20,7 +20,7 @@ use scene::Friction;
 pub enum ViewPart {
     /// It goes with the answer.
     Answer,
-    /// Forces that stand beside it: without the pre-stress, or at a load factor at which the scene
+    /// Forces that stand beside it: without the self-stress, or at a load factor at which the scene
     /// stands.
     Base,
     /// With dry friction.
@@ -263,7 +263,7 @@ fn line(model: &Model, resultants: &[Option<Resultant>]) -> Vec<Segment> {
 }
 
 /// Forces that leave something out of balance.
-const CLOSEST: &str = "forces that come closest";
+const CLOSEST: &str = "forces closest to equilibrium";
 
 /// A system of forces as it was saved.
 struct Named<'a> {
@@ -290,22 +290,24 @@ pub(super) fn of(model: &Model, file: &ResultFile) -> Result<Vec<ViewState>, Str
         let (name, value) = match (file.answer.verdict(), file.answer.bound()) {
             (_, Some(l)) => match l.status {
                 Outcome::Found => {
-                    (format!("forces that balance it{}", at(l.value)), number(l.value))
+                    (format!("forces in equilibrium{}", at(l.value)), number(l.value))
                 }
-                Outcome::Unbounded => ("forces that balance the live load alone".into(), None),
+                Outcome::Unbounded => {
+                    ("forces in equilibrium with the live load alone".into(), None)
+                }
                 Outcome::Impossible | Outcome::Undecided => (CLOSEST.into(), None),
             },
-            (Some(Verdict::Stable), _) => ("forces that balance it".into(), None),
-            (Some(Verdict::Conditional), _) => ("forces with a pre-stress".into(), None),
+            (Some(Verdict::Stable), _) => ("forces in equilibrium".into(), None),
+            (Some(Verdict::Conditional), _) => ("forces with self-stress".into(), None),
             _ => (CLOSEST.into(), None),
         };
         list.push(Named { part: ViewPart::Answer, name, value, saved: &file.certificate.forces });
     }
     if let Some(base) = &file.certificate.base {
         let name = if file.answer.verdict() == Some(Verdict::Conditional) {
-            "forces without a pre-stress"
+            "forces without self-stress"
         } else {
-            "forces that balance the dead load"
+            "forces in equilibrium with the dead load"
         };
         list.push(Named { part: ViewPart::Base, name: name.into(), value: None, saved: base });
     }
@@ -324,10 +326,10 @@ pub(super) fn of(model: &Model, file: &ResultFile) -> Result<Vec<ViewState>, Str
     }
     if let (Some(thrust), Some(answer)) = (&file.thrust, file.answer.thrust()) {
         let ends = [
-            (ViewPart::Least, "forces of the least thrust", &thrust.least, &answer.least),
+            (ViewPart::Least, "forces at the least thrust", &thrust.least, &answer.least),
             (
                 ViewPart::Greatest,
-                "forces of the greatest thrust",
+                "forces at the greatest thrust",
                 &thrust.greatest,
                 &answer.greatest,
             ),
@@ -349,7 +351,7 @@ pub(super) fn of(model: &Model, file: &ResultFile) -> Result<Vec<ViewState>, Str
         let name = if stands {
             "forces under the dead load"
         } else {
-            "forces that come closest under the dead load"
+            "forces closest to equilibrium under the dead load"
         };
         let saved = &dead.certificate.forces;
         list.push(Named { part: ViewPart::Dead, name: name.into(), value: None, saved });

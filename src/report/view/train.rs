@@ -19,9 +19,9 @@ impl Course {
         Self {
             opens: film.iter().position(|f| f.time == x),
             name: "train, position by position".into(),
-            quantity: "Place of the train",
+            quantity: "Position of the train",
             unit: "m",
-            way: "way in the mechanism shown",
+            way: "displacement in the mechanism shown",
             ..Self::default()
         }
     }

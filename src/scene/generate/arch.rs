@@ -281,7 +281,7 @@ fn ring_cut_vertically(
     let &Midline::Circular { radius, half_deg } = midline else {
         return Err(place.error(
             "thickness_along",
-            "vertical joints with the thickness normal to the mid-line are there for circular arches only",
+            "vertical joints with the thickness normal to the mid-line are for circular arches only",
             "use thickness_along: vertical, or radial joints",
         ));
     };

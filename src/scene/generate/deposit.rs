@@ -105,7 +105,7 @@ fn check(p: &Protocol) -> Result<(), InputError> {
         return Err(place.error(
             "rolling_arm",
             text,
-            "hulls resist rolling by their faces; spheres and clumps take a rolling arm",
+            "hulls resist rolling with their faces; only spheres and clumps have a rolling arm",
         ));
     }
     for (k, s) in p.size().iter().enumerate() {
@@ -183,7 +183,8 @@ fn loose(
     let pitch = LOOSE * p.sizes.greatest(d) * reach;
     if p.kind == ProtocolKind::Funnel && p.drop < pitch {
         let text = format!("must be at least {}, got {}", short(pitch), p.drop);
-        let hint = "the height above the highest grain, in d, from which the next ones do not begin inside it";
+        let hint =
+            "height above the highest grain, in d, at which the next grains start clear of it";
         return Err(TemplatePath::template("repose").error("drop", text, hint));
     }
     let count = |low: f64, high: f64| (((high - low) / pitch).floor() as usize).max(1);
@@ -242,8 +243,11 @@ fn lie(
     blocks: &mut Vec<BlockSpec>,
 ) -> Result<(Vec<Vec<String>>, f64), InputError> {
     if own.is_empty() {
-        return Err(InputError::at(Default::default(), "there is no free grain to start with")
-            .hint("supports of the scene are left out: the protocol brings its own"));
+        return Err(InputError::at(
+            Default::default(),
+            "the scene has no free grain to start with",
+        )
+        .hint("the protocol uses its own supports, not those of the scene"));
     }
     let (mut layer, mut top) = (Vec::with_capacity(own.len()), 0.0_f64);
     for block in own {

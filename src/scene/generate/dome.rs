@@ -92,7 +92,7 @@ fn check(place: &TemplatePath, dome: &Dome) -> Result<(f64, f64, f64), InputErro
         if dome.oculus_deg.is_none_or(|o| o >= 90.0) {
             return Err(place.error(
                 "height",
-                "a lantern stands on the edge of an oculus in the upper half of the sphere",
+                "a lantern needs an oculus in the upper half of the sphere to stand on",
                 "give oculus_deg, less than 90",
             ));
         }

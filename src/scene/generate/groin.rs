@@ -35,7 +35,7 @@ pub fn blocks(groin: &Groin) -> Result<Vec<BlockSpec>, InputError> {
         return Err(place.error(
             "voussoirs",
             format!(
-                "the diagonals meet in a joint at the crown: an even number, got {}",
+                "must be even, for the diagonals meet in a joint at the crown, got {}",
                 groin.voussoirs
             ),
             format!("{} or {}", groin.voussoirs - 1, groin.voussoirs + 1),

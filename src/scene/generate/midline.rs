@@ -149,17 +149,16 @@ impl Fields {
             return Err(place.error(
                 field,
                 "missing",
-                format!("{} is given by both span and rise of its intrados", self.called()),
+                format!("{} needs both span and rise of its intrados", self.called()),
             ));
         };
         for (field, value) in [("radius", self.radius), ("span", self.span), ("rise", self.rise)] {
             if value.is_some() {
-                let text =
-                    "is that of the mid-line, which intrados_span and intrados_rise already give";
+                let text = "cannot be combined with intrados_span and intrados_rise, which already define the mid-line";
                 return Err(place.error(
                     field,
                     text,
-                    format!("leave {field} out, or both of the intrados"),
+                    format!("leave {field} out, or both intrados_span and intrados_rise"),
                 ));
             }
         }
@@ -228,7 +227,7 @@ impl Fields {
         match (self.radius, self.span.or(self.rise)) {
             (Some(_), Some(_)) => Err(place.error(
                 "radius",
-                "excludes span and rise",
+                "cannot be combined with span and rise",
                 "give the radius, or span and rise of the mid-line, not both",
             )),
             (None, None) => Err(place.error(
@@ -281,7 +280,7 @@ impl Fields {
         Err(place.error(
             field,
             format!("{} has no {field}", self.called()),
-            format!("it is given by {uses}"),
+            format!("it is defined by {uses}"),
         ))
     }
 
@@ -295,7 +294,9 @@ impl Fields {
             None => Ok(()),
             Some(_) => Err(place.error(
                 field,
-                format!("span and rise already give the arch; {field} excludes them"),
+                format!(
+                    "span and rise already define the arch: {field} cannot be combined with them"
+                ),
                 format!("leave {field} out"),
             )),
         }

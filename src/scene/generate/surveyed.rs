@@ -29,19 +29,19 @@ impl Surveyed {
         if points.len() < 3 {
             return refuse(
                 0,
-                format!("{} points give no curve", points.len()),
-                "three or more, from the left springing to the right one",
+                format!("{} points do not define a curve", points.len()),
+                "give three or more, from the left springing to the right one",
             );
         }
         if let Some(k) = points.iter().position(|p| !p.iter().all(|c| c.is_finite())) {
             return refuse(k, "must be two finite numbers".into(), "x and z, in m");
         }
         if let Some(k) = points.windows(2).position(|p| p[0] == p[1]) {
-            return refuse(k + 1, "is the point before once more".into(), "remove it");
+            return refuse(k + 1, "repeats the point before".into(), "remove it");
         }
         let [first, last] = [points[0], points[points.len() - 1]];
         if last[0] <= first[0] {
-            return refuse(0, "the points run from right to left".into(), "turn their order round");
+            return refuse(0, "the points run from right to left".into(), "reverse their order");
         }
         let level = base::tolerance::GRID_SNAP * (last[0] - first[0]);
         if (first[1] - last[1]).abs() > level {
@@ -49,7 +49,7 @@ impl Surveyed {
             return refuse(
                 points.len() - 1,
                 text,
-                "springings at two heights are left out: end the higher side where the ring passes it",
+                "springings at different heights are not supported: give both the same height",
             );
         }
         let middle = 0.5 * (first[0] + last[0]);
@@ -57,7 +57,7 @@ impl Surveyed {
         if let Some(k) = (1..points.len() - 1).find(|&k| points[k][1] <= 0.0) {
             return refuse(
                 k,
-                "lies no higher than the springings".into(),
+                "does not lie above the springings".into(),
                 "give the points of the intrados alone",
             );
         }

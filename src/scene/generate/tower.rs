@@ -18,7 +18,7 @@ pub fn blocks(tower: &Tower) -> Result<Vec<BlockSpec>, InputError> {
         return Err(place.error(
             "thickness",
             format!("must be less than half of the smaller side = {}, got {t}", 0.5 * a.min(b)),
-            "the tower is hollow; a solid one is a column",
+            "the tower is hollow; use the template column for a solid one",
         ));
     }
     let (courses, pieces) = (digits(tower.courses), digits(tower.blocks));

@@ -77,8 +77,7 @@ pub(super) fn scene(mut files: Vec<Raw>, options: &ImportOptions) -> Result<Impo
     if options.friction.is_none() {
         findings.push(Finding::new(
             FindingCode::Missing,
-            "the friction of the joints is not known: the scene cannot be assessed before it is given; \
-             import with `--friction MU` or set joints.default.friction",
+            "the scene has no friction for its joints and cannot be assessed: import with `--friction MU` or set joints.default.friction",
         ));
     }
     Ok(Imported { scene, findings, origins, unread: Vec::new() })
@@ -149,7 +148,7 @@ fn name_files_apart(files: &mut [Raw]) -> Result<Vec<Finding>, InputError> {
         .hint("rename one of the files"));
     }
     let text = format!(
-        "two files have a block {clash:?}: the ids of every file got its name in front ({})",
+        "two files have a block {clash:?}: all ids now begin with the name of their file ({})",
         list(&prefixes)
     );
     Ok(vec![Finding::new(FindingCode::Converted, text)])
@@ -195,11 +194,11 @@ fn source(files: &[Raw], options: &ImportOptions) -> String {
     }
     match options.up {
         Up::Z => {}
-        Up::X => text.push_str("; x up turned to z"),
-        Up::Y => text.push_str("; y up turned to z"),
-        Up::MinusX => text.push_str("; −x up turned to z"),
-        Up::MinusY => text.push_str("; −y up turned to z"),
-        Up::MinusZ => text.push_str("; −z up turned to z"),
+        Up::X => text.push_str("; x up rotated to z"),
+        Up::Y => text.push_str("; y up rotated to z"),
+        Up::MinusX => text.push_str("; −x up rotated to z"),
+        Up::MinusY => text.push_str("; −y up rotated to z"),
+        Up::MinusZ => text.push_str("; −z up rotated to z"),
     }
     text
 }
@@ -252,7 +251,7 @@ fn supports(
         let lowest = lows.iter().copied().fold(f64::INFINITY, f64::min);
         let text = match count {
             0 => format!(
-                "no block reaches below {height} m, where supports were asked for; the lowest corner is at {lowest} m"
+                "no block lies below {height} m, where supports were asked for; the lowest corner is at {lowest} m"
             ),
             n => format!("blocks with their lowest corner below {height} m, now supports: {n}"),
         };
@@ -264,10 +263,8 @@ fn supports(
     if scene.blocks.iter().all(|b| !b.support) {
         findings.push(Finding::new(FindingCode::Missing, propose(scene, &lows)));
     } else if scene.blocks.iter().all(|b| b.support) {
-        findings.push(Finding::new(
-            FindingCode::Missing,
-            "every block is a support: there is nothing that could move",
-        ));
+        findings
+            .push(Finding::new(FindingCode::Missing, "every block is a support: nothing can move"));
     }
     Ok(())
 }

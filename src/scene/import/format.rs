@@ -53,7 +53,7 @@ impl Format {
             })
             .or_else(|| Format::by_content(bytes))
             .ok_or_else(|| {
-                InputError::at(JsonPath::root(), "neither the extension nor the content tells the format")
+                InputError::at(JsonPath::root(), "the format is unknown from both the extension and the content")
                     .hint("known formats are COMPAS JSON, OBJ, PLY, STL, and tables or dumps of grains; name the file .json, .obj, .ply, .stl, .csv or .dump")
             })
     }

@@ -52,7 +52,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw, InputError> {
     let needed = |name: &str| {
         column(name).ok_or_else(|| {
             error(head.0, format!("no column {name:?} among {:?}", shorten(&titles.join(", "))))
-                .hint("grains need columns x, y, z (xs, ys, zs are shares of the box, no lengths) and radius, named in the first line")
+                .hint("grains need columns x, y, z (xs, ys, zs are fractions of the box, not lengths) and radius, named in the first line")
         })
     };
     let place = [needed("x")?, needed("y")?, needed("z")?];
@@ -76,7 +76,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw, InputError> {
                     *line,
                     format!("{}: expected a finite number, got {:?}", titles[k], shorten(word)),
                 )
-                .hint("as many columns as the head names; numbers with a point")
+                .hint("give as many columns as the header names, and numbers with a decimal point")
             })
         };
         let at = [number(place[0])?, number(place[1])?, number(place[2])?];
@@ -139,7 +139,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw, InputError> {
         raw.say(
             FindingCode::Converted,
             format!(
-                "spheres of type 2, read as supports: {by_type}; a column `fixed` says otherwise"
+                "spheres of type 2, read as supports: {by_type}; add a column `fixed` to choose them yourself"
             ),
         );
     }

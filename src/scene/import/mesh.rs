@@ -171,7 +171,7 @@ fn load(file: &File, name: &str) -> Result<(Mesh, Vec<Finding>), InputError> {
     let mut blocks = raw.blocks.into_iter();
     let (Some(solid), None) = (blocks.next(), blocks.next()) else {
         let text =
-            format!("the file holds {} meshes ({}), a block is one", names.len(), list(&names));
+            format!("the file has {} meshes ({}), a block takes one", names.len(), list(&names));
         return error(
             text,
             "split the file, or make a scene of all of them with `voussoir import`",

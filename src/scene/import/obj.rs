@@ -86,10 +86,10 @@ pub(super) fn read(bytes: &[u8], stem: &str) -> Result<Raw, InputError> {
         faces.iter().find_map(|f| f.corners.iter().find(|&&i| i >= vertices.len()).map(|i| (f, i)))
     {
         return Err(text::error(face.line, format!("corner {} does not exist: the file has {} corners", index + 1, vertices.len()))
-            .hint("indices count from 1 over the whole file; the file may be cut off or put together from several"));
+            .hint("indices count from 1 over the whole file; the file may be cut off or merged from several"));
     }
     if !unknown.is_empty() {
-        let text = format!("lines without a meaning for polyhedra, left out: {}", tally(&unknown));
+        let text = format!("lines that do not describe polyhedra, left out: {}", tally(&unknown));
         raw.say(FindingCode::LeftOut, text);
     }
     if faces.is_empty() {
@@ -182,11 +182,11 @@ fn split(
     if let Some(p) = sorted.iter().position(|faces| faces.len() < LEAST_FACES) {
         let (n, message) = (
             sorted[p].len(),
-            "the file names no objects, and the faces do not hang together by their corners",
+            "the file names no objects, and its faces are not connected at their corners",
         );
         return Err(text::error(
             places[p][0],
-            format!("{message}: here is a part of {n} faces, a solid has at least {LEAST_FACES}"),
+            format!("{message}: the part here has {n} faces, a solid needs at least {LEAST_FACES}"),
         )
         .hint("export one object (`o NAME`) per block, or let faces share their corners (weld)"));
     }

@@ -184,7 +184,7 @@ fn check(header: &Header) -> Result<(), InputError> {
         Some(face) if has(face, &["vertex_indices", "vertex_index"]) && face.count > 0 => Ok(()),
         _ => lacks(
             "no faces (element \"face\" with a list \"vertex_indices\")",
-            "point clouds and triangle strips are no solids; export polygons",
+            "point clouds and triangle strips are not solids; export polygons",
         ),
     }
 }
@@ -204,9 +204,9 @@ fn place(error: &ParseError, text_line: bool) -> InputError {
     }
     let hint = match error.kind() {
         std::io::ErrorKind::UnexpectedEof => {
-            "the file is cut off, or its header promises more than there is; export it again"
+            "the file is cut off, or its header announces more than there is; export it again"
         }
-        _ => "the file is damaged or no PLY file; export it again",
+        _ => "the file is damaged or not a PLY file; export it again",
     };
     match error.line().filter(|_| text_line) {
         Some(line) => text::error(line, short),

@@ -96,8 +96,7 @@ impl Raw {
             .collect();
         if !several.is_empty() {
             let text = format!(
-                "blocks of several parts that share no corner, kept as one rigid block each: {}; \
-                 if the parts are blocks of their own, export them as separate objects",
+                "blocks of several parts that share no corner, kept as one rigid block each: {}; if the parts are separate blocks, export them as separate objects",
                 tally(&several)
             );
             self.say(FindingCode::Converted, text);

@@ -77,7 +77,7 @@ pub(super) fn read(bytes: &[u8], stem: &str) -> Result<Raw, InputError> {
 fn binary(bytes: &[u8]) -> Result<Raw, InputError> {
     let damaged = |message: String| {
         InputError::at(JsonPath::root(), message)
-            .hint("the file is cut off or no STL file; export it again")
+            .hint("the file is cut off or not an STL file; export it again")
     };
     let Some(length) = binary_length(bytes) else {
         return Err(damaged(format!("no triangles in this STL file of {} bytes", bytes.len())));
@@ -85,7 +85,7 @@ fn binary(bytes: &[u8]) -> Result<Raw, InputError> {
     let Some(body) = bytes.get(HEADER..length) else {
         let promised = (length - HEADER) / TRIANGLE;
         return Err(damaged(format!(
-            "the header promises {promised} triangles ({length} bytes), the file has {} bytes",
+            "the header announces {promised} triangles ({length} bytes), the file has {} bytes",
             bytes.len()
         )));
     };
@@ -129,7 +129,7 @@ fn ascii(bytes: &[u8]) -> Result<Raw, InputError> {
         let word = words.next().unwrap_or_default().to_ascii_lowercase();
         let misplaced = || {
             text::error(line, format!("unexpected here: {:?}", shorten(&text)))
-                .hint("STL is solid, facet normal, outer loop, three times vertex, endloop, endfacet, endsolid; the file is damaged")
+                .hint("the file is damaged: STL is solid, facet normal, outer loop, three times vertex, endloop, endfacet, endsolid")
         };
         match (word.as_str(), &mut open, &mut face) {
             ("solid", None, _) => {

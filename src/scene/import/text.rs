@@ -31,7 +31,7 @@ pub(super) fn lines(bytes: &[u8]) -> Result<Vec<(usize, String)>, InputError> {
     for (index, line) in split(bytes).enumerate() {
         if line.contains(&0) {
             return Err(error(index + 1, "a zero byte: this is not a text file")
-                .hint("the file is damaged, or of another format than its name says"));
+                .hint("the file is damaged, or not of the format in its name"));
         }
         let text = String::from_utf8_lossy(line);
         let text = if text.trim_start().starts_with('#') { "" } else { text.trim() };

@@ -90,7 +90,7 @@ fn read<T: DeserializeOwned>(
     let Some(header) = header.filter(|h| h.format == wanted.format) else {
         return Err(damaged(
             1,
-            format!("not the beginning of a file of {}; give --keep another name", wanted.format),
+            format!("not the header of a file of {}; give --keep another name", wanted.format),
         ));
     };
     if header != *wanted {
@@ -106,7 +106,7 @@ fn read<T: DeserializeOwned>(
             serde_json::from_slice(text).map_err(|e| {
                 damaged(
                     index + 1,
-                    format!("not of {}: {e}; remove the line to have it done again", wanted.format),
+                    format!("not of {}: {e}; remove the line to recompute it", wanted.format),
                 )
             })
         })
@@ -177,14 +177,14 @@ mod tests {
             assert!(error.contains(word), "{error}");
             assert_eq!(fs::read_to_string(&path).unwrap(), text);
         };
-        refused("precious\n", "not the beginning of a file of voussoir-tests/1");
-        refused("precious", "not the beginning");
+        refused("precious\n", "not the header of a file of voussoir-tests/1");
+        refused("precious", "not the header");
         let header = |format: &str, of| {
             line(&Header { format: format.into(), version: env!("CARGO_PKG_VERSION").into(), of })
                 .unwrap()
         };
         let own = header(FORMAT, json!({ "seed": 1 }));
-        refused(&header("voussoir-others/1", json!({ "seed": 1 })), "not the beginning");
+        refused(&header("voussoir-others/1", json!({ "seed": 1 })), "not the header");
         refused(&header(FORMAT, json!({ "seed": 2 })), "{\"seed\":2}");
         refused(&own.replace(env!("CARGO_PKG_VERSION"), "9.9.9"), "version 9.9.9");
         refused(&format!("{own}{{\"index\":1}}\n"), "kept.jsonl:2: not of voussoir-tests/1");

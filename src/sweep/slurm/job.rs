@@ -51,7 +51,7 @@ impl Job {
         let damaged = |e: serde_json::Error| RowsError::Damaged {
             file,
             line: e.line(),
-            why: format!("not the record of a job: {e}; remove the file, the rows stay"),
+            why: format!("not the record of a job: {e}; remove the file; the rows are kept"),
         };
         serde_json::from_slice(&bytes).map(Some).map_err(damaged)
     }

@@ -127,7 +127,7 @@ pub fn submit(folder: &Path, script: &str) -> Result<u64, SlurmError> {
     let number = text.lines().rev().find_map(|line| line.split(';').next()?.trim().parse().ok());
     number.ok_or_else(|| SlurmError::Refused {
         program: "sbatch".into(),
-        said: format!("no number of a job in its answer: {}", text.trim()),
+        said: format!("no job number in its answer: {}", text.trim()),
     })
 }
 

@@ -39,7 +39,7 @@ impl fmt::Display for Script {
         )?;
         writeln!(
             f,
-            "# A task that is started again goes on where it stopped: every row it has done is in rows/."
+            "# A restarted task resumes where it stopped: its finished rows are in rows/."
         )?;
         let mut option = |text: &str| writeln!(f, "#SBATCH {text}");
         option("--job-name=voussoir")?;

@@ -26,9 +26,9 @@ pub enum StudyMethod {
     KeepAll,
     /// One program in newtons and metres, as a textbook writes it; knob: the engine's tolerance.
     Unscaled,
-    /// Friction pyramids inside the cones; knob: the number of facets.
+    /// Friction inscribed pyramids the cones; knob: the number of facets.
     PyramidInside,
-    /// Friction pyramids around the cones; knob: the number of facets.
+    /// Friction circumscribed pyramids the cones; knob: the number of facets.
     PyramidAround,
     /// Bisection by verdicts of the least equilibrium error; knob: the number of verdicts.
     Bisection,
@@ -59,10 +59,10 @@ impl StudyMethod {
             Self::Ladder => "voussoir limit",
             Self::Forces => "one program in forces",
             Self::Rates => "one program in rates",
-            Self::KeepAll => "in forces, nothing left out",
+            Self::KeepAll => "in forces, no reductions",
             Self::Unscaled => "in newtons, unscaled",
-            Self::PyramidInside => "pyramids inside",
-            Self::PyramidAround => "pyramids around",
+            Self::PyramidInside => "inscribed pyramids",
+            Self::PyramidAround => "circumscribed pyramids",
             Self::Bisection => "bisection of verdicts",
             Self::DryFriction => "dry friction",
             Self::Simulation => "simulation in time",

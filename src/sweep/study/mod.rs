@@ -4,9 +4,11 @@
 //! number of bisections) and records what came out, how long it took, and what the engine said
 //! about it. [`extreme`] asks some thousand stiff scenes with closed forms and counts what is
 //! wrong, undecided or loosely bracketed. [`rocking`] has blocks on ground that moves; [`elastic`]
-//! joints that yield, beside the penalty method.
+//! joints, beside the penalty method. [`experiments`] holds predictions against tests of
+//! laboratories.
 
 pub mod elastic;
+pub mod experiments;
 pub mod extreme;
 mod known;
 mod method;

@@ -28,7 +28,7 @@ fn dome_with_windows(friction: f64, wide: usize) -> String {
     .to_string()
 }
 
-/// Forces that hold the lintels exist, and so does their fall: what is proved to need a pre-stress
+/// Forces that hold the lintels exist, and so does their fall: what is proved to need self-stress
 /// stands for nobody who reads one line, or one exit code.
 #[test]
 fn all_verbs_agree_about_a_dome_with_windows_or_say_why_they_do_not() {
@@ -42,11 +42,14 @@ fn all_verbs_agree_about_a_dome_with_windows_or_say_why_they_do_not() {
                 .collect();
             (words[0].clone(), words.join(" "))
         };
-        assert!(line("assess").0.starts_with("Dome: stands only with a pre-stress"));
-        assert!(line("limit").0.starts_with("Dome: no λ with dry friction: not at rest"));
+        assert!(line("assess").0.starts_with("Dome: stands only with self-stress"));
+        assert!(
+            line("limit").0.starts_with("Dome: no load factor with dry friction: the blocks move")
+        );
         let (first, whole) = line("simulate");
-        let explained = first == "Dome: stands in time, but by proof only with a pre-stress"
-            && whole.contains("Both are solutions of dry friction");
+        let explained = first
+            == "Dome: stands in the simulation, but by proof only with self-stress"
+            && whole.contains("Both are solutions with dry friction");
         assert!(explained || first.starts_with("Dome: falls"), "{whole}");
     }
 }
@@ -56,14 +59,14 @@ fn simulate_answers_by_its_exit_code_and_says_whether_the_verdict_agrees() {
     let stands = expect(YES, with_input(&["simulate", "-"], PUSHED));
     assert!(
         out(&stands).starts_with("Pushed: stands\n")
-            && out(&stands).contains("The verdict says the same: it stands."),
+            && out(&stands).contains("The verdict agrees: it stands."),
         "{}",
         out(&stands)
     );
     let falls = expect(NO, with_input(&["simulate", "-", "--load-factor", "0.55"], PUSHED));
     assert!(
         out(&falls).contains(
-            "The verdict says the same: it falls. Its first motion and the mechanism correlate by"
+            "The verdict agrees: it falls. The correlation of the first motion with the mechanism is"
         ),
         "{}",
         out(&falls)
@@ -86,7 +89,7 @@ fn simulate_answers_by_its_exit_code_and_says_whether_the_verdict_agrees() {
     );
     assert!(
         out(&open).starts_with("Pushed: undecided: it neither rests nor has it fallen: ")
-            && !out(&open).contains("verdict says"),
+            && !out(&open).contains("The verdict"),
         "{}",
         out(&open)
     );
@@ -133,7 +136,8 @@ fn simulate_writes_trajectories_and_results_that_check_knows() {
     assert_eq!(file["run"]["frames"][0]["blocks"].as_array().map(Vec::len), Some(3));
     let checked = expect(YES, voussoir(&["check", &result]));
     assert!(
-        out(&checked).contains("the engine does the same again (computed, not proved)"),
+        out(&checked)
+            .contains("the simulation gives the same result when run again (computed, not proved)"),
         "{}",
         out(&checked)
     );

@@ -194,7 +194,7 @@ fn a_path_is_a_collection_of_poses_and_a_film_beside_its_curve() {
     assert!(named.len() > 1 && named.iter().all(|n| desk.path(n).is_file()), "{text}");
     assert_eq!(fs::read_to_string(&csv).unwrap().lines().count(), named.len() + 1);
     let page = fs::read_to_string(&page).unwrap();
-    assert!(page.contains("\"film\":[") && page.contains("Share of the movement"));
+    assert!(page.contains("\"film\":[") && page.contains("Share of the imposed movement"));
     assert!(page.contains("path, point by point") && !page.contains("simulation, fine"));
     // All of this movement is done; of a longer one that begins so, the rest is left.
     let longer = ["settle", &arch, "--move", "springer_right=0.008,0,0", "--from", &saved, "-q"];
@@ -211,12 +211,12 @@ fn pictures_that_cannot_be_made_are_refused_before_the_work() {
     let arch = desk.at("arch.json");
     for (wrong, word) in [
         (&["--vtk", "a.vtk"][..], "name it a.vtp"),
-        (&["--vtk", "-", "--svg", "-"], "standard output takes one of"),
-        (&["--svg", "-", "--json"], "standard output takes one of"),
-        (&["--csv", "-"], "--csv takes a file"),
+        (&["--vtk", "-", "--svg", "-"], "can go to standard output"),
+        (&["--svg", "-", "--json"], "can go to standard output"),
+        (&["--csv", "-"], "--csv needs a file"),
         (&["--svg", "no/such/folder.svg"], "no such folder"),
         (&["--view", "corner"], "--svg"),
-        (&["--svg", "a.svg", "--view", "inside"], "not auto, front"),
+        (&["--svg", "a.svg", "--view", "inside"], "expected auto, front"),
     ] {
         let answer = expect(USAGE, voussoir(&[&["assess", &arch], wrong].concat()));
         assert!(err(&answer).contains(word), "{wrong:?}: {}", err(&answer));
@@ -226,7 +226,7 @@ fn pictures_that_cannot_be_made_are_refused_before_the_work() {
     fs::copy(&arch, &plain).unwrap();
     for wrong in [["--svg", &plain], ["--report", &plain]] {
         let answer = expect(USAGE, voussoir(&[&["assess", &plain], &wrong[..]].concat()));
-        assert!(err(&answer).contains("would replace the scene"), "{}", err(&answer));
+        assert!(err(&answer).contains("would overwrite the scene"), "{}", err(&answer));
     }
     let answer = expect(USAGE, voussoir(&["simulate", &arch, "--vtk", "a.vtp"]));
     assert!(err(&answer).contains("name it a.pvd"), "{}", err(&answer));

@@ -25,7 +25,7 @@ fn a_stable_result_is_refused_after_any_change() {
     let desk = Desk::new();
     let good = desk.saved(YES, &["assess", &desk.at("arch.json")]);
     assert!(desk.checked(YES, &good).starts_with(
-        "Arch: proved, exact; that states under dry friction rest or move is computed, not proved\n"
+        "Arch: proved, exact; whether states under dry friction rest or move is computed, not proved\n"
     ));
     let (i, j) = greatest_force(&good["evidence"]["assess"]["standing"]["certificate"]);
     type Change<'a> = (&'a str, Box<dyn Fn(&mut Value) + 'a>);

@@ -17,7 +17,8 @@ fn a_span_and_a_rise_are_enough_for_an_arch() {
     }
     let both = err(&expect(USAGE, voussoir(&["generate", "arch", "span=4", "rise=1", "radius=3"])));
     assert!(
-        both.contains("arch.radius: excludes span and rise") && both.contains("of the mid-line"),
+        both.contains("arch.radius: cannot be combined with span and rise")
+            && both.contains("of the mid-line"),
         "{both}"
     );
     let one = err(&expect(USAGE, voussoir(&["generate", "arch", "span=4"])));
@@ -30,7 +31,8 @@ fn a_span_and_a_rise_are_enough_for_an_arch() {
         voussoir(&["generate", "arch", "intrados_span=4", "intrados_rise=1", "rise=1"]),
     ));
     assert!(
-        two.contains("arch.rise: is that of the mid-line") && two.contains("leave rise out"),
+        two.contains("arch.rise: cannot be combined with intrados_span")
+            && two.contains("leave rise out"),
         "{two}"
     );
 }

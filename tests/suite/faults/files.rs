@@ -81,13 +81,13 @@ fn no_output_replaces_another_or_what_is_read() {
         (&["sweep", "plan.json", "--csv", "new", "--report", "new"], "two outputs"),
         (&["study", "--extreme", "--keep", "new", "--csv", "new"], "two outputs"),
         (&["simulate", "wall.json", "--csv", "new", "--svg", "new"], "two outputs"),
-        (&["simulate", "wall.json", "--csv", "other-wall"], "would replace it"),
-        (&["assess", "wall.json", "--save", "other-wall"], "would replace it"),
-        (&["sweep", "plan.json", "--csv", "other-plan"], "would replace it"),
-        (&["sweep", "plan.json", "--report", "other-wall"], "would replace it"),
-        (&["check", "wall.json", "--svg", "other-wall"], "would replace it"),
-        (&["import", "wall.json", "-o", "other-wall"], "would replace it"),
-        (&["sweep", "merge", "a", "--csv", "soft"], "would replace it"),
+        (&["simulate", "wall.json", "--csv", "other-wall"], "would overwrite this input"),
+        (&["assess", "wall.json", "--save", "other-wall"], "would overwrite this input"),
+        (&["sweep", "plan.json", "--csv", "other-plan"], "would overwrite this input"),
+        (&["sweep", "plan.json", "--report", "other-wall"], "would overwrite this input"),
+        (&["check", "wall.json", "--svg", "other-wall"], "would overwrite this input"),
+        (&["import", "wall.json", "-o", "other-wall"], "would overwrite this input"),
+        (&["sweep", "merge", "a", "--csv", "soft"], "would overwrite this input"),
     ] {
         let output = at_once(at, args);
         expect(USAGE, &output);

@@ -184,7 +184,7 @@ fn arrays_are_named_alike_in_every_file_and_say_what_they_are_beside() {
         assert!(first.iter().any(|n| n == name), "{name}: {first:?}");
     }
     assert!(factor > 0.0 && other > factor, "{factor}, {other}");
-    assert!(said.contains("force: forces that balance it at λ = "), "{said}");
+    assert!(said.contains("force: forces in equilibrium at λ = "), "{said}");
 }
 
 fn falling() -> (Model, View) {

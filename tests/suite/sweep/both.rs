@@ -37,7 +37,7 @@ fn a_thrust_on_a_support_that_touches_nothing() {
     scene["blocks"].as_array_mut().unwrap().push(far);
     for (support, direction, words) in [
         ("far", "1,0", "support far touches no free block"),
-        ("block", "1,0", "support block: this block is free"),
+        ("block", "1,0", "support block: this block is not a support"),
         ("nobody", "1,0", "support nobody: there is no such block"),
         ("table", "0,0,1", "is parallel to gravity"),
     ] {

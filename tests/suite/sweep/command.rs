@@ -162,21 +162,21 @@ fn what_cannot_be_done_is_said_before_the_work() {
         assert!(error.contains(word), "{error}");
     };
     says(&["sweep", "none.json"], "cannot be read");
-    says(&["sweep", "plan.json", "-o", "-"], "--output takes a file");
+    says(&["sweep", "plan.json", "-o", "-"], "--output needs a file");
     says(&["sweep", "plan.json", "--shard", "3/2"], "K/N");
-    says(&["sweep", "plan.json", "-o", "scene.json"], "this file is read");
+    says(&["sweep", "plan.json", "-o", "scene.json"], "would overwrite this input");
     fs::copy(at.join("scene.json"), at.join("other.json")).unwrap();
-    says(&["sweep", "plan.json", "-o", "other.json"], "not the beginning of a file of rows");
+    says(&["sweep", "plan.json", "-o", "other.json"], "not the header of a file of rows");
     says(
         &["sweep", "plan.json", "--restart", "-o", "other.json"],
-        "not the beginning of a file of rows",
+        "not the header of a file of rows",
     );
     assert_eq!(fs::read_to_string(at.join("other.json")).unwrap(), arch().to_string());
     says(&["sweep", "plan.json", "-o", "nowhere/rows.jsonl"], "cannot be written");
     says(&["sweep", "plan.json", "--csv", "nowhere/table.csv"], "no such folder");
     says(&["sweep", "plan.json", "--chart", "line"], "--svg");
     says(&["sweep", "plan.json", "--svg", "chart.svg", "--chart", "line", "--shard", "0/2"], "K/N");
-    says(&["sweep", "merge", "plan.json"], "not the beginning");
+    says(&["sweep", "merge", "plan.json"], "not the header");
     let mut grid: Value =
         serde_json::from_str(&fs::read_to_string(at.join("plan.json")).unwrap()).unwrap();
     grid["vary"] = json!([{ "pointer": "/joints/default/friction", "values": [0.5, 0.6] }]);
@@ -218,7 +218,7 @@ fn the_worst_case_is_an_answer_like_others() {
     assert_eq!(saved["scene"]["joints"]["default"]["friction"], json!(0.6));
     expect(0, at, &["check", "result.json"]);
     let error = expect(2, at, &["assess", "scene.json", "--worst", "frictoin=1..2"]).stderr;
-    assert!(String::from_utf8_lossy(&error).contains("known are friction"));
+    assert!(String::from_utf8_lossy(&error).contains("the names are friction"));
     expect(0, at, &["schema", "plan"]);
 }
 

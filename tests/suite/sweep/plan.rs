@@ -77,7 +77,7 @@ fn wrong_plans_are_refused_with_place_and_remedy() {
     refused(
         |p| p["sampling"] = json!({ "random": { "samples": 10 } }),
         &s,
-        &["vary[0].count", "belongs to a grid"],
+        &["vary[0].count", "applies to a grid only"],
     );
     refused(|p| p["question"] = json!({ "guess": {} }), &s, &["question.guess", "assess"]);
     refused(
@@ -93,7 +93,7 @@ fn wrong_plans_are_refused_with_place_and_remedy() {
         (json!({ "tilt": { "skip_dead": true } }), "question.tilt.skip_dead", "remove it"),
         (json!({ "thrust": { "range": true } }), "question.thrust.range", "two plans give both"),
     ] {
-        refused(|p| p["question"] = question, &s, &[key, "does nothing in rows", remedy]);
+        refused(|p| p["question"] = question, &s, &[key, "has no effect in the rows", remedy]);
     }
     // Words that the scene does not know, and numbers where words are.
     let words = |pointer: &str, values: Value| json!([{ "pointer": pointer, "values": values }]);
@@ -117,7 +117,7 @@ fn wrong_plans_are_refused_with_place_and_remedy() {
     refused(
         |p| p["vary"] = words("/loads/live/0/block", json!([1, 2])),
         &pushed,
-        &["not a number", "words with \"values\""],
+        &["not a number", "list words to vary as \"values\""],
     );
     let mut still = block();
     still["loads"] = json!({});

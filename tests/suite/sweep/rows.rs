@@ -239,9 +239,9 @@ fn damage_in_the_middle_is_told_with_its_line() {
         (format!("{text}{}\n", row.replacen("\"value\":0.", "\"value\":1.", 1)), "was edited"),
         (
             unsummed(&format!("{text}{}\n", row.replacen("\"value\":0.", "\"value\":1.", 1))),
-            "is there twice",
+            "appears twice",
         ),
-        (format!("{header}\n{}\n", row.replacen("\"row\":", "\"row\":9", 1)), "none of this plan"),
+        (format!("{header}\n{}\n", row.replacen("\"row\":", "\"row\":9", 1)), "not belong"),
     ] {
         fs::write(&path, &text).unwrap();
         let error =
@@ -349,7 +349,7 @@ fn rows_that_were_edited_are_noticed_by_whoever_reads_them() {
             text.replacen(third, &third.replacen("\"seconds\":", "\"seconds\":1", 1), 1),
             "rows.jsonl:3: ",
         ),
-        (text.replacen(third, &without, 1), "rows.jsonl:3: the check sum of the row is gone"),
+        (text.replacen(third, &without, 1), "rows.jsonl:3: the row was edited: its checksum"),
         (text.replacen("\"seed\":5", "\"seed\":6", 1), "rows.jsonl:2: "),
     ] {
         assert_ne!(edited, text);

@@ -232,10 +232,10 @@ fn plans_that_mean_nothing_are_refused() {
     let record = json!({ "record": "bad.csv" });
     let pulse = json!({ "pulse": { "jump": { "velocity": 1 } } });
     for (ground, vary, word) in [
-        (&record, json!({ "pointer": at, "from": 1, "to": 2, "count": 2 }), "in which unit"),
+        (&record, json!({ "pointer": at, "from": 1, "to": 2, "count": 2 }), "gives no unit"),
         (&pulse, json!({ "pointer": RECORD, "values": ["none.csv"] }), "none.csv"),
         (&pulse, json!({ "pointer": RECORD, "folder": "empty" }), "holds no record"),
-        (&pulse, json!({ "pointer": at, "folder": "empty" }), "only records"),
+        (&pulse, json!({ "pointer": at, "folder": "empty" }), "only ground-motion records"),
         (
             &pulse,
             json!({ "pointer": "/question/rock/scal", "from": 1, "to": 2, "count": 2 }),

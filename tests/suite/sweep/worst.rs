@@ -65,7 +65,7 @@ fn the_worst_densities_are_opposite_ends_where_one_weight_holds_the_other() {
         (w.scene.materials["inner"].density, w.scene.materials["outer"].density),
         (2000.0, 2400.0)
     );
-    assert!(w.argument[1].contains("nothing between them is worse"), "{:?}", w.argument);
+    assert!(w.argument[1].contains("no value between them is worse"), "{:?}", w.argument);
     // No value between is worse.
     let least = factor(&w.scene);
     for (inner, outer) in [
@@ -145,7 +145,7 @@ fn other_numbers_are_searched_and_nothing_more_is_claimed() {
     let w = ask(&arch(), &["/templates/0/arch/thickness=0.15..0.2", "friction=0.6..0.7"], limits())
         .unwrap();
     assert!(
-        w.argument.iter().any(|a| a.contains("values between them were not asked")),
+        w.argument.iter().any(|a| a.contains("values between them were not computed")),
         "{:?}",
         w.argument
     );
@@ -153,18 +153,18 @@ fn other_numbers_are_searched_and_nothing_more_is_claimed() {
     assert_eq!(thin.pointer("/templates/0/arch/thickness"), Some(&json!(0.15)));
     // The live load is a weight, which densities change as well: no claim about what lies between.
     let w = ask(&arch(), &["density=2000..2400"], limits()).unwrap();
-    assert!(w.argument[1].contains("values between them were not asked"), "{:?}", w.argument);
+    assert!(w.argument[1].contains("values between them were not computed"), "{:?}", w.argument);
 }
 
 #[test]
 fn ranges_that_name_nothing_are_refused() {
     for (range, word) in [
         ("frction=0..1", "unknown"),
-        ("friction=-1..1", "not below 0"),
+        ("friction=-1..1", "must not be negative"),
         ("density=0..1", "above 0"),
         ("density:stome=1..2", "did you mean \"stone\""),
         ("load=1..2", "no dead load"),
-        ("/blocks/9/density=1..2", "leads nowhere"),
+        ("/blocks/9/density=1..2", "does not exist"),
     ] {
         let error = ask(&block(), &[range], stands()).expect_err("refused");
         assert!(error.contains(word), "{error}");

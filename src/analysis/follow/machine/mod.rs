@@ -79,7 +79,7 @@ pub fn machine(
     if let Some(e) = options.restitution
         && !(0.0..=1.0).contains(&e)
     {
-        return Err(refuse(format!("a restitution of {e}: it is between 0 and 1")));
+        return Err(refuse(format!("the restitution must be between 0 and 1, got {e}")));
     }
     let (toward, up) = directions(&model.assembly, options.toward)?;
     let axes = [toward, up.cross(&toward), up];
@@ -102,8 +102,8 @@ pub fn machine(
     let [one, other] = sides;
     let (one, other) = (one?, other?);
     let Some(one) = one else {
-        return Err(refuse("towards the direction there is no mechanism".into())
-            .hint("ask the opposite direction"));
+        return Err(refuse("there is no mechanism towards the direction".into())
+            .hint("try the opposite direction"));
     };
     let sides = [Some(one), other];
     let chosen = chosen(model, options, &sides, &kept)?;
@@ -116,7 +116,7 @@ pub fn machine(
     let restitution = options.restitution.map_or(conserving, |e| [e; 2]);
     if sides[1].is_none() {
         notes.push(format!(
-            "against the direction nothing moves: at every impact on what holds it {}",
+            "against the direction nothing moves: at every impact on what holds it, {}",
             options.restitution.map_or_else(
                 || "it stops (--restitution lets it bounce)".into(),
                 |e| format!("it bounces with {e} of its speed")
@@ -172,7 +172,7 @@ fn chosen(
     };
     let point = point.unwrap_or(blocks[block].centroid);
     if (point - blocks[block].centroid).norm() > blocks[block].size {
-        return Err(refuse(format!("the control point is no point of {}", blocks[block].id)));
+        return Err(refuse(format!("the control point does not lie on {}", blocks[block].id)));
     }
     Ok(Chosen { block, local: (own, point), point })
 }

@@ -71,11 +71,11 @@ impl<'a> Side<'a> {
             model.interfaces.list.iter().map(|f| (0..f.points.len()).collect()).collect();
         let drive = drive();
         let next = program::next(&carried, &poses, &all, &drive)
-            .ok_or_else(|| refuse(format!("{sense} the mechanism was not found again")))?;
+            .ok_or_else(|| refuse(format!("{sense}: the mechanism was not found again")))?;
         if let Some(k) = next.slides {
             let f = &model.interfaces.list[k];
             return Err(refuse(format!(
-                "{sense} the joint between {} and {} slides: only motions about hinges are followed",
+                "{sense}: the joint between {} and {} slides, and only motions about hinges are followed",
                 blocks[f.a].id, blocks[f.b].id
             ))
             .hint("`voussoir simulate --ground` runs it in time with friction"));
@@ -85,7 +85,7 @@ impl<'a> Side<'a> {
         let free = linkage.free(&place, None);
         if free.ncols() != 1 {
             return Err(refuse(format!(
-                "{sense} the hinges of the mechanism leave {} motions free, not one",
+                "{sense}: the hinges of the mechanism leave {} motions free, not one",
                 free.ncols()
             ))
             .hint("`voussoir simulate --ground` runs it in time"));
@@ -103,7 +103,7 @@ impl<'a> Side<'a> {
         let fastest = rates.iter().map(|r| r.spin.norm()).fold(0.0, f64::max);
         let lead = rates.iter().position(|r| r.spin.norm() >= (1.0 - REST) * fastest);
         let Some(lead) = lead.filter(|_| fastest > 0.0) else {
-            return Err(refuse(format!("{sense} nothing turns in the mechanism")));
+            return Err(refuse(format!("{sense}: nothing rotates in the mechanism")));
         };
         let sign = power(&rates, true).signum();
         rates.iter_mut().for_each(|r| {
@@ -112,11 +112,11 @@ impl<'a> Side<'a> {
         });
         let own = -power(&rates, false) / power(&rates, true);
         let Some(value) = proof.value else {
-            return Err(refuse(format!("{sense} no load factor was found")));
+            return Err(refuse(format!("{sense}: no load factor was found")));
         };
         if (own - value).abs() > SAME * value.abs() {
             return Err(refuse(format!(
-                "{sense} the linkage has the load factor {own:.9}, the proved one is {value:.9}"
+                "{sense}: the linkage has the load factor {own:.9}, the proved one is {value:.9}"
             )));
         }
         let axis = rates[lead].spin;
@@ -158,7 +158,7 @@ impl<'a> Side<'a> {
         let quarter = std::f64::consts::FRAC_PI_2;
         if end < quarter {
             notes.push(format!(
-                "{} the linkage was followed up to a turn of {:.4} rad of {}; beyond it counts as overturned",
+                "{}: the linkage was followed up to a rotation of {:.4} rad of {}; beyond this it counts as overturned",
                 ["towards the direction", "against the direction"][self.which],
                 end,
                 self.model.assembly.blocks[self.lead].id
@@ -250,7 +250,7 @@ pub(super) fn exactness(sides: &[Option<Side>; 2], built: &[Option<Lawful>]) -> 
         }
     }
     if sides.iter().any(Option::is_none) {
-        return ideal("what holds it in the other sense is met without any law of its own");
+        return ideal("the impact on what holds it in the other sense has no law of its own");
     }
     Exactness::Exact
 }

@@ -29,12 +29,12 @@ pub(super) fn found(proof: &Proved<LoadFactor>, where_: &str) -> Result<(), Inpu
         Outcome::Found if proof.bracket.lower > 0.0 => return Ok(()),
         Outcome::Found | Outcome::Impossible => "the scene does not stand by itself",
         Outcome::Unbounded => {
-            return Err(refuse(format!("{where_} no acceleration moves anything")));
+            return Err(refuse(format!("{where_}: no acceleration moves anything")));
         }
         Outcome::Undecided => "its load factor was not found",
     };
     Err(refuse(format!("{text}: there is no mechanism to follow in time"))
-        .hint("ask `voussoir assess` and `voussoir limit` first"))
+        .hint("run `voussoir assess` and `voussoir limit` first"))
 }
 
 pub(super) fn refuse(text: String) -> InputError {

@@ -22,7 +22,7 @@ pub(super) fn read(lines: &[(usize, String)]) -> Result<Raw, InputError> {
     let head = || lines.iter().take(HEADER);
     let Some((at, counts)) = head().find(|(_, l)| l.to_uppercase().contains("NPTS")) else {
         return Err(error(1, "the header of this AT2 file is cut off: no line with NPTS and DT")
-            .hint("line 4 says how many samples follow and how far apart they are, such as \"NPTS= 4000, DT= .0100 SEC\""));
+            .hint("line 4 must give the number of samples and the time step, such as \"NPTS= 4000, DT= .0100 SEC\""));
     };
     let (count, step) = counts_of(*at, counts)?;
     let (mut unit, mut unit_line) = (None, *at);
@@ -40,7 +40,7 @@ pub(super) fn read(lines: &[(usize, String)]) -> Result<Raw, InputError> {
             if unit.is_none() {
                 return Err(error(
                     *line,
-                    format!("{:?} is no unit of acceleration", shortened(name)),
+                    format!("{:?} is not a unit of acceleration", shortened(name)),
                 )
                 .hint(format!("units are {}", UNITS)));
             }
@@ -80,7 +80,7 @@ fn counts_of(line: usize, text: &str) -> Result<(usize, f64), InputError> {
         }
         _ => Err(error(
             line,
-            format!("no number of samples and time between them in {:?}", shortened(text)),
+            format!("no number of samples and no time step in {:?}", shortened(text)),
         )
         .hint("such as \"NPTS= 4000, DT= .0100 SEC\"")),
     }

@@ -21,7 +21,7 @@ pub(super) fn read(lines: &[(usize, String)]) -> Result<Raw, InputError> {
         if let Some(comment) = text.strip_prefix('#') {
             if let Some(name) = named(comment) {
                 let unit = Unit::read(name).ok_or_else(|| {
-                    error(*line, format!("{:?} is no unit of acceleration", shortened(name)))
+                    error(*line, format!("{:?} is not a unit of acceleration", shortened(name)))
                         .hint(format!("units are {}", UNITS))
                 })?;
                 (unit_of_all, unit_line) = (Some(unit), *line);
@@ -37,15 +37,16 @@ pub(super) fn read(lines: &[(usize, String)]) -> Result<Raw, InputError> {
         }
     }
     let Some((first, cells)) = rows.first() else {
-        return Err(error(lines.len().max(1), "there is no sample in this file")
-            .hint("lines of a time and one to three accelerations, such as \"0.01, 0.35\""));
+        return Err(error(lines.len().max(1), "the file has no samples").hint(
+            "give lines with a time and one to three accelerations, such as \"0.01, 0.35\"",
+        ));
     };
     let (first, width) = (*first, cells.len());
     if !(2..=4).contains(&width) {
         return Err(error(
             first,
             format!(
-                "{width} numbers in a line: a record has a time and one to three accelerations"
+                "{width} numbers in a line: a record needs a time and one to three accelerations"
             ),
         )
         .hint("columns are t,a or t,ax,ay or t,ax,ay,az"));
@@ -66,7 +67,7 @@ pub(super) fn read(lines: &[(usize, String)]) -> Result<Raw, InputError> {
                 time_unit = Some(seconds(*line, name)?);
             } else {
                 units[k - 1] = Some(Unit::read(name).ok_or_else(|| {
-                    error(*line, format!("{:?} is no unit of acceleration", shortened(name)))
+                    error(*line, format!("{:?} is not a unit of acceleration", shortened(name)))
                         .hint(format!("units are {}", UNITS))
                 })?);
             }
@@ -75,7 +76,7 @@ pub(super) fn read(lines: &[(usize, String)]) -> Result<Raw, InputError> {
     if time_unit.is_none() {
         findings.push(Finding::new(
             FindingCode::Assumed,
-            "times are taken as seconds: the file names no unit for them",
+            "times are taken in seconds: the file gives no unit for them",
         ));
     }
     let mut columns: Vec<Column> =
@@ -85,7 +86,7 @@ pub(super) fn read(lines: &[(usize, String)]) -> Result<Raw, InputError> {
     for (line, cells) in &rows {
         if cells.len() != width {
             return Err(error(*line, format!("{} numbers, line {first} has {width}", cells.len()))
-                .hint("the file may be cut off there"));
+                .hint("the file may be incomplete"));
         }
         times.push((*line, number(*line, &cells[0])? * time_unit.unwrap_or(1.0)));
         decimals = decimals.max(digits(&cells[0]));
@@ -158,7 +159,7 @@ fn seconds(line: usize, name: &str) -> Result<f64, InputError> {
     match name.to_lowercase().as_str() {
         "s" | "sec" | "second" | "seconds" => Ok(1.0),
         "ms" | "msec" | "milliseconds" => Ok(1e-3),
-        _ => Err(error(line, format!("{:?} is no unit of time", shortened(name)))
+        _ => Err(error(line, format!("{:?} is not a unit of time", shortened(name)))
             .hint("units are s or ms")),
     }
 }
@@ -176,15 +177,15 @@ fn digits(cell: &str) -> i32 {
 fn even(times: &[(usize, f64)], resolution: f64) -> Result<f64, InputError> {
     let (Some(first), Some(last)) = (times.first(), times.last()) else { return Ok(0.0) };
     if times.len() < 2 {
-        return Err(error(first.0, "one sample is no record"));
+        return Err(error(first.0, "a record needs at least two samples"));
     }
     for pair in times.windows(2) {
         if pair[1].1 <= pair[0].1 {
             return Err(error(
                 pair[1].0,
-                format!("time does not grow: {} s after {} s", pair[1].1, pair[0].1),
+                format!("times must increase: {} s follows {} s", pair[1].1, pair[0].1),
             )
-            .hint("samples come in order of time, each once; write times with more digits"));
+            .hint("list samples in order of time, each once, and write times with enough digits"));
         }
     }
     let step = (last.1 - first.1) / (times.len() - 1) as f64;
@@ -212,5 +213,5 @@ fn even(times: &[(usize, f64)], resolution: f64) -> Result<f64, InputError> {
             base::number::short(common)
         ),
     )
-    .hint("samples may be missing, or times written with too few digits; give the record an even step"))
+    .hint("give the record an even time step: samples may be missing, or times may have too few digits"))
 }

@@ -53,7 +53,7 @@ pub(super) fn read(lines: &[(usize, String)]) -> Result<Raw, InputError> {
     }
     let (count_line, _, count) = need("NDATA", "8000")?;
     let count: usize = count.parse().map_err(|_| {
-        error(count_line, format!("NDATA is no number of samples: {:?}", shortened(count)))
+        error(count_line, format!("NDATA is not a number of samples: {:?}", shortened(count)))
     })?;
     if let Some((line, _, kind)) = find("DATA_TYPE")
         && !kind.to_uppercase().contains("ACCELERATION")
@@ -65,7 +65,7 @@ pub(super) fn read(lines: &[(usize, String)]) -> Result<Raw, InputError> {
         Some((line, _, name)) => Some((
             line,
             Unit::read(name).ok_or_else(|| {
-                error(line, format!("{:?} is no unit of acceleration", shortened(name)))
+                error(line, format!("{:?} is not a unit of acceleration", shortened(name)))
                     .hint(format!("units are {}", UNITS))
             })?,
         )),

@@ -99,7 +99,7 @@ impl Record {
         let mut findings = raw.findings;
         let count = raw.columns.iter().map(|c| c.values.len()).max().unwrap_or(0);
         if count < LEAST {
-            return Err(error(raw.unit_line, format!("{count} samples are no record")));
+            return Err(error(raw.unit_line, format!("{count} samples are too few for a record")));
         }
         let mut samples = vec![Vector3::zeros(); count];
         let mut peak: Option<Peak> = None;
@@ -110,14 +110,11 @@ impl Record {
                         raw.unit_line,
                         format!("the file says {own}, --units says {given}"),
                     )
-                    .hint("leave --units out, or mend the file"));
+                    .hint("leave --units out, or correct the file"));
                 }
                 (own, given) => own.or(given).ok_or_else(|| {
-                    error(
-                        raw.unit_line,
-                        "the file does not say in which unit its accelerations are",
-                    )
-                    .hint(format!("say it with --units ({UNITS}), or in the file"))
+                    error(raw.unit_line, "the file gives no unit for its accelerations")
+                        .hint(format!("give it with --units ({UNITS}), or in the file"))
                 })?,
             };
             for (sample, value) in samples.iter_mut().zip(&column.values) {
@@ -132,7 +129,7 @@ impl Record {
                 findings.push(Finding::new(
                     FindingCode::Units,
                     format!(
-                        "{name}:{line}: the greatest acceleration is {} m/s², the header announces {} m/s²: the record may be cut or in another unit",
+                        "{name}:{line}: the greatest acceleration is {} m/s², the header announces {} m/s²: the record may be incomplete or in another unit",
                         base::number::short(most * unit.value()),
                         base::number::short(announced)
                     ),
@@ -143,7 +140,7 @@ impl Record {
             findings.push(Finding::new(
                 FindingCode::Units,
                 format!(
-                    "{name}: {} s between two samples: is that another unit of time?",
+                    "{name}: {} s between two samples: are the times in another unit?",
                     base::number::short(raw.step)
                 ),
             ));
@@ -155,7 +152,7 @@ impl Record {
             components: raw.columns.len(),
             samples,
             findings,
-            peak: peak.ok_or_else(|| error(raw.unit_line, "there are no accelerations"))?,
+            peak: peak.ok_or_else(|| error(raw.unit_line, "the record has no accelerations"))?,
         })
     }
 
@@ -174,13 +171,13 @@ impl Record {
                 "{} s between samples, {} has {} s",
                 other.step, self.name, self.step
             ))
-            .hint("the components of one motion have one step"));
+            .hint("all components of one motion need the same time step"));
         }
         if self.samples.len() != other.samples.len() {
             self.findings.push(Finding::new(
                 FindingCode::LeftOut,
                 format!(
-                    "{} has {} samples, {} has {}: the shorter one ends in zeros",
+                    "{} has {} samples, {} has {}: the shorter one is extended with zeros",
                     self.name,
                     self.samples.len(),
                     other.name,
@@ -260,7 +257,7 @@ impl Peak {
             format!("{place}: all accelerations are zero")
         } else if peak > STRONGEST {
             format!(
-                "{place}: a peak of {g} g is more than earthquakes reach: are the accelerations really in {unit}?"
+                "{place}: a peak of {g} g exceeds any earthquake: are the accelerations really in {unit}?"
             )
         } else if peak < WEAKEST {
             let other = if *unit == Unit::Gravity { "m/s²" } else { "g" };

@@ -36,8 +36,8 @@ pub(super) fn error(line: usize, message: impl Into<String>) -> InputError {
 pub(super) fn number(line: usize, word: &str) -> Result<f64, InputError> {
     match word.trim().parse::<f64>() {
         Ok(value) if value.is_finite() => Ok(value),
-        Ok(_) => Err(error(line, format!("{:?} is no sample: it is not finite", word.trim()))
-            .hint("mend or cut the record there; nothing is filled in")),
+        Ok(_) => Err(error(line, format!("the sample {:?} is not finite", word.trim()))
+            .hint("correct or cut the record there: missing samples are not filled in")),
         Err(_) => Err(error(line, format!("expected a number, got {:?}", shortened(word)))
             .hint("samples are numbers with a decimal point; comments begin with #")),
     }
@@ -81,12 +81,12 @@ pub(super) fn counted(
             column.lines.last().copied().unwrap_or(line),
             format!("the file ends after {there} samples; {key} in line {line} announces {count}"),
         )
-        .hint("the file is cut off: get it again"));
+        .hint("the file is incomplete: download it again"));
     }
     if there > count {
         findings.push(Finding::new(
             FindingCode::LeftOut,
-            format!("{there} samples, {key} announces {count}: those beyond are left out"),
+            format!("{there} samples, {key} announces {count}: the rest is ignored"),
         ));
         column.values.truncate(count);
         column.lines.truncate(count);

@@ -73,6 +73,6 @@ impl std::str::FromStr for Unit {
 
     fn from_str(text: &str) -> Result<Self, String> {
         Self::read(text)
-            .ok_or_else(|| format!("{text:?} is no unit of acceleration; hint: {UNITS}"))
+            .ok_or_else(|| format!("{text:?} is not a unit of acceleration; hint: {UNITS}"))
     }
 }

@@ -19,7 +19,7 @@ impl Derivation<'_> {
     ) -> Result<(), String> {
         let Some(contacts) = self.model.interfaces.left_out else {
             return match e {
-                Some(_) => Err("no contacts were left out that could be closed".into()),
+                Some(_) => Err("the evidence closes contacts, but none were left out".into()),
                 None => Ok(()),
             };
         };
@@ -37,7 +37,7 @@ impl Derivation<'_> {
             None => None,
             Some(e) => {
                 let given = given(self.question, told, e)
-                    .ok_or("the question is not one that is asked again with contacts closed")?;
+                    .ok_or("this question is not repeated with contacts closed")?;
                 f.computed = true;
                 if self.asks_again() {
                     // Where it does not stand, or one end was asked, whether it does was asked again.
@@ -56,11 +56,7 @@ impl Derivation<'_> {
                                     || answer.beside(&e.answer) == Difference::None)
                         })
                     });
-                    computed(
-                        &mut f,
-                        same,
-                        "the answer with contacts closed that were left out".into(),
-                    );
+                    computed(&mut f, same, "the answer with the left-out contacts closed".into());
                 }
                 let difference = e.answer.beside(&given);
                 Some(Closed { law: e.law, answer: e.answer.clone(), difference })

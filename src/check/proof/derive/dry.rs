@@ -49,20 +49,20 @@ impl Derivation<'_> {
             require(
                 &mut f,
                 above.is_some_and(near),
-                "the value is little below where it moves, or the bound",
+                "the value lies just below the load factor at which the blocks move, or just below the bound",
             );
         }
         require(
             &mut f,
             e.found != Found::Unlimited || status == Outcome::Unbounded,
-            "where there is no limit, the bound has none",
+            "where the value has no limit, neither has the bound",
         );
         // No value passes the bound.
         let within = |v: f64| bound.upper.is_none_or(|u| v <= u + 1e-9 * u.abs());
         require(
             &mut f,
             [e.value, e.rests_at].into_iter().flatten().all(within),
-            "it is not above the bound",
+            "the value does not exceed the bound",
         );
         if f.fails.is_empty() && e.found == Found::Undecided {
             f.holds.push("undecided: nothing is claimed".into());
@@ -72,9 +72,11 @@ impl Derivation<'_> {
         let is_negative = bound.upper.is_some_and(|u| u < 0.0);
         let falls = e.found == Found::NotAtRest && (is_negative || dead == Some(Verdict::Unstable));
         if falls && is_negative {
-            f.holds.push("the bound is below zero: the dead load alone is not held".into());
+            f.holds.push("the bound is below zero: it falls under the dead load alone".into());
         } else if falls {
-            f.holds.push("the dead load alone is not held, as its own evidence says".into());
+            f.holds.push(
+                "it falls under the dead load alone, as the evidence for that load proves".into(),
+            );
         }
         if falls {
             told.rests_at = None;
@@ -86,7 +88,7 @@ impl Derivation<'_> {
             require(
                 &mut f,
                 rising,
-                "it rests up to no more than the value, and moves from no less on",
+                "the blocks come to rest at or below the value, and move at or above it",
             );
             if rising
                 && self.asks_again()
@@ -113,20 +115,36 @@ impl Derivation<'_> {
             Ok(())
         };
         if let Some(lambda) = dry.rests_at {
-            ask(f, lambda, StateMotion::Rests, format!("the state rests at {lambda}"))?;
+            ask(
+                f,
+                lambda,
+                StateMotion::Rests,
+                format!("with dry friction the blocks come to rest at {lambda}"),
+            )?;
         }
         if let Some(lambda) = dry.moves_at {
-            ask(f, lambda, StateMotion::Moves, format!("the state moves at {lambda}"))?;
+            ask(
+                f,
+                lambda,
+                StateMotion::Moves,
+                format!("with dry friction the blocks move at {lambda}"),
+            )?;
         }
         match (dry.found, dry.value, dry.moves_at) {
             (Found::NotAtRest, ..) if dry.moves_at != Some(0.0) => {
-                ask(f, 0.0, StateMotion::Moves, "the state moves under the dead load".into())?;
+                ask(
+                    f,
+                    0.0,
+                    StateMotion::Moves,
+                    "with dry friction the blocks move under the dead load".into(),
+                )?;
             }
             (Found::Unlimited, ..) => {
                 computed(
                     f,
                     self.again.rests_alone(&at(0.0)?),
-                    "the live load alone produces the forces that balance it: no limit".into(),
+                    "the live load alone produces the forces that balance it: there is no limit"
+                        .into(),
                 );
             }
             (Found::Rests, Some(value), moves_at) => {
@@ -140,7 +158,7 @@ impl Derivation<'_> {
                 computed(
                     f,
                     moves.map(|moves| known && moves),
-                    format!("at {next} it rests no longer"),
+                    format!("at {next} the blocks no longer come to rest"),
                 );
             }
             _ => {}
@@ -183,12 +201,14 @@ fn proof(
             }
             let is_bound = bound.value == Some(said) && evidence.rates == e.certificate.rates;
             let words = match e.found {
-                Found::NothingSlides => "it is the bound itself: in its mechanism nothing slides",
-                _ => "it is another one than the bound, with evidence of its own",
+                Found::NothingSlides => "the value is the bound: nothing slides in its mechanism",
+                _ => "the value differs from the bound and has its own evidence",
             };
             require(&mut f, is_bound == (e.found == Found::NothingSlides), words);
             f
         }
-        _ => failure("the load factor with dry friction is not the one its certificate claims"),
+        _ => {
+            failure("the load factor with dry friction differs from the one its certificate claims")
+        }
     }
 }

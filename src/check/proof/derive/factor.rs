@@ -69,7 +69,7 @@ impl Derivation<'_> {
             Some(Claim::Unbounded { .. }) => none(Outcome::Unbounded),
             Some(Claim::Impossible) => none(Outcome::Impossible),
             Some(_) => {
-                f.fails.push("what is proved is no load factor".into());
+                f.fails.push("the proved claim is not a load factor".into());
                 none(Outcome::Undecided)
             }
             None => {

@@ -154,7 +154,9 @@ impl Derivation<'_> {
             (Question::State(o), Evidence::State(e)) => state::derive(self, o, e),
             (Question::Rock(o), Evidence::Rock(e)) => rocking::derive(self, o, e),
             (Question::Shake(o), Evidence::Shake(e)) => shaken::derive(self, o, e),
-            _ => Err(format!("the evidence is none for the question, `{}`", self.question.word())),
+            _ => {
+                Err(format!("the evidence does not answer the question `{}`", self.question.word()))
+            }
         }
     }
 
@@ -184,7 +186,9 @@ impl Derivation<'_> {
         told.in_words(self.model, proven.as_ref());
         if let Some(seen) = &e.simulation {
             if seen.asked != SimulateOptions::default() {
-                return Err("the simulation beside a verdict is run as `simulate` runs it".into());
+                return Err(
+                    "the simulation beside a verdict must use the defaults of `simulate`".into()
+                );
             }
             told.simulation = Some(seen.told(Some(verdict)));
             self.simulated(seen);
@@ -219,21 +223,23 @@ impl Derivation<'_> {
 
     /// What the engine did, which it does again.
     fn simulated(&mut self, seen: &super::simulation::Seen) {
-        let text = "the engine does the same again";
+        let text = "the simulation gives the same result when run again";
         let mut f = Findings { computed: true, ..Findings::default() };
         if self.asks_again() {
             match self.again.simulated(seen, self.scene, self.model) {
                 None => f.unchecked.push(text.into()),
-                Some(Err(e)) => f.fails.push(format!("the scene has no such history: {e}")),
+                Some(Err(e)) => {
+                    f.fails.push(format!("the history cannot be computed for this scene: {e}"))
+                }
                 Some(Ok(here)) if here.fate != seen.fate => f.fails.push(format!(
-                    "run again, the outcome is another one: {:?} and not {:?}",
+                    "run again, the outcome is {:?} instead of {:?}",
                     here.fate, seen.fate
                 )),
                 Some(Ok(here)) => match super::compare::first_difference(seen, &here) {
                     None => f.holds.push(format!("{text} (computed, not proved)")),
                     // Another machine may round otherwise, from which another history comes.
                     Some(place) => f.unchecked.push(format!(
-                        "run again here the engine says otherwise at {place}: not confirmed"
+                        "run again here, the simulation differs at {place}: not confirmed"
                     )),
                 },
             }
@@ -266,7 +272,7 @@ impl Derivation<'_> {
         let verdict = level.as_ref().and_then(|d| d.answer.verdict());
         let asked = directions(self.model.assembly.gravity, &o.toward, o.all);
         let told = self.tilts(self.model, &asked, (&e.directions, o.law), verdict);
-        let mut told = told.ok_or("there are no directions")?;
+        let mut told = told.ok_or("no direction is given")?;
         told.dead_load = level;
         Ok(told)
     }
@@ -284,7 +290,7 @@ impl Derivation<'_> {
         let mut all = Vec::new();
         if list.len() > asked.len() {
             let text = format!(
-                "there is evidence for {} directions, asked were {}",
+                "the evidence has {} directions, the question has {}",
                 list.len(),
                 asked.len()
             );

@@ -29,7 +29,7 @@ impl Derivation<'_> {
         let proven = e.certificate.prove(f, model, self.known());
         let claim = proven.as_ref().and_then(|p| p.claim);
         if claim.is_some_and(|c| c.verdict().is_none()) {
-            f.fails.push("what is proved is no verdict".into());
+            f.fails.push("the proved claim is not a verdict".into());
         }
         let verdict = claim.and_then(|c| c.verdict()).unwrap_or(Verdict::Undecided);
         if claim.is_none() {
@@ -39,7 +39,7 @@ impl Derivation<'_> {
             f.computed = true;
             if self.asks_again() && f.fails.is_empty() {
                 let moves = self.again.motion(model).map(|motion| motion == StateMotion::Moves);
-                computed(f, moves, "the state under dry friction moves".into());
+                computed(f, moves, "with dry friction the blocks move".into());
             }
         }
         let law = (verdict == Verdict::Stable).then(|| self.rests(f, model, e.state));
@@ -62,16 +62,20 @@ impl Derivation<'_> {
     /// a state, computed and not proved, but where statics alone fixes them.
     fn rests(&self, f: &mut Findings, model: &Model, state: Option<StateMotion>) -> Law {
         if is_forest(model) {
-            f.holds.push("contacts form no closed chain: the loads fix the forces".into());
+            f.holds
+                .push("contacts form no closed chain: statics alone determines the forces".into());
             return Law::Coulomb;
         }
         if state != Some(StateMotion::Rests) {
-            f.holds.push("whether the loads produce such forces by themselves was not asked: they may need a pre-stress".into());
+            f.holds.push(
+                "whether the loads produce such forces was not asked: they may need a self-stress"
+                    .into(),
+            );
             return Law::Associative;
         }
         f.computed = true;
         if self.asks_again() && f.fails.is_empty() {
-            let text = "the loads produce such forces by themselves: with dry friction the blocks come to rest";
+            let text = "with slightly elastic joints the blocks come to rest under the loads";
             let rests = self.again.motion(model).map(|motion| motion == StateMotion::Rests);
             computed(f, rests, text.into());
         }

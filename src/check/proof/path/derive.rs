@@ -35,7 +35,7 @@ pub(in crate::proof) fn derive(d: &mut Derivation, e: &PathEvidence) -> Result<T
     let drive = match d.question {
         Question::Settle(o) => Drive::settle(assembly, o),
         Question::Push(o) => Drive::push(assembly, o),
-        _ => return Err("the question is about no path".into()),
+        _ => return Err("the question follows no path".into()),
     };
     let drive = drive.map_err(|e| e.to_string())?;
     let (answer, path) = curve(d, d.model, &drive, e)?;
@@ -61,7 +61,7 @@ pub(in crate::proof) fn curve(
         seen.push(here);
     }
     let (mut ends, mut ends_seen) = (Vec::new(), Vec::new());
-    for (word, own) in ["last that stands", "first that falls"].iter().zip(&e.ends) {
+    for (word, own) in ["last pose that stands", "first pose that falls"].iter().zip(&e.ends) {
         let title = format!("{word}, at {}", own.value);
         let (told, here) = point(d, title, (&carried, drive), own)?;
         ends.push(told);
@@ -78,11 +78,15 @@ pub(in crate::proof) fn curve(
     let natural = claim::natural_factor(&model.assembly);
     let least_reaction = match (drive, &e.least) {
         (Drive::Settle(moves), Some(least)) => least_power(&mut f, model, moves, least),
-        (_, Some(_)) => return Err("a least reaction is none of this question".into()),
+        (_, Some(_)) => return Err("this question has no least reaction".into()),
         _ => None,
     };
     let ends_well = (ends.len() == 2) == (e.end == EndEvidence::Falls) && ends.len() != 1;
-    require(&mut f, ends_well, "the poses at which it falls are given where it does");
+    require(
+        &mut f,
+        ends_well,
+        "the poses just before and after the fall are given where it falls, and only there",
+    );
     let whole = chain.broken.is_none();
     let linked = &points[..chain.broken.map_or(points.len(), |k| k + 1)];
     let end = if whole { &e.end } else { &EndEvidence::Open };
@@ -101,12 +105,12 @@ pub(in crate::proof) fn curve(
             points.get(k + 1).or(ends.last()).map_or(points[k].value, |p| p.value),
             match steps.get(k).is_some_and(Step::closes) {
                 true => "a joint closes",
-                false => "what carries does not stay where it was",
+                false => "the contacts that carry do not stay in place",
             }
         )),
         (EndEvidence::Slides([a, b]), None) => {
             known(&carried, &[a.clone(), b.clone()])?;
-            Some(format!("{a} and {b} slide on each other"))
+            Some(format!("{a} and {b} slide against each other"))
         }
         _ => None,
     };
@@ -115,11 +119,11 @@ pub(in crate::proof) fn curve(
     let sinks = linked().map(|(_, s)| s.sinks).fold(0.0, f64::max);
     f.holds.push(match whole {
         true => format!(
-            "what carries at a point lay together at the one before, to {off:.0e} of its block, and no joint closes between them, to {sinks:.0e}"
+            "contacts that carry at a point were closed at the point before (within {off:.0e} of the block size), and no joint closes in between (within {sinks:.0e})"
         ),
-        false => "what does not is not linked, and nothing is said from there on".into(),
+        false => "some contacts that carry at a point were open at the point before: nothing is claimed from there on".into(),
     });
-    f.holds.push("that the poses are on the way is computed, not proved: what is proved is what each point says of the scene there".into());
+    f.holds.push("each point is proved for its own poses; that the scene passes through these poses is computed, not proved".into());
     f.computed = true;
     d.part("curve", f);
     let jumps_at = chain.jumps.first().map(|&k| points[k].value);
@@ -179,7 +183,8 @@ fn begins(
             (a.shift - b.shift).norm() / block.size + a.turn.angle_to(&b.turn)
         });
     let off = off.fold(0.0, f64::max);
-    let word = if from.is_empty() { "that of the scene" } else { "the one that it begins at" };
+    let word =
+        if from.is_empty() { "that of the scene" } else { "the one that the question starts from" };
     require(f, off <= tolerance::ON_THE_WAY, format!("the first pose is {word}"));
     Ok(())
 }
@@ -256,7 +261,7 @@ fn point(
         &mut f,
         depth >= -tolerance::JOINT_CLOSED,
         format!(
-            "no two blocks overlap: the deepest corner by {:.1e} of its block",
+            "no two blocks overlap (deepest corner: {:.1e} of the block size)",
             (-depth).max(0.0)
         ),
     );
@@ -272,7 +277,7 @@ fn point(
         Some(Claim::Stable | Claim::Unstable) => !drive.is_push(),
         Some(_) => drive.is_push() && load_factor.is_some(),
     };
-    require(&mut f, fits, "what is proved of it is what was asked");
+    require(&mut f, fits, "the proved claim answers the question");
     let most = bound(&mut f, (model, d.known()), load_factor, (claim, e))?;
     let moving: Vec<usize> = match drive {
         Drive::Settle(moves) => moves.0.iter().map(|m| m.support).collect(),
@@ -326,7 +331,10 @@ fn motion(
     require(
         f,
         left.equilibrium_error <= tolerance::DRY_BALANCE && left.cone_excess <= tolerance::CONE,
-        format!("the forces of the motion balance the loads, to {:.0e}", left.equilibrium_error),
+        format!(
+            "the forces of the motion balance the loads, within {:.0e}",
+            left.equilibrium_error
+        ),
     );
     Ok(Some(forces))
 }
@@ -347,7 +355,7 @@ fn bound(
     f.holds.extend(own.holds.into_iter().map(|t| format!("bound: {t}")));
     f.fails.extend(own.fails.into_iter().map(|t| format!("bound: {t}")));
     let Some(Claim::LoadFactor { upper, .. }) = proven.and_then(|p| p.claim) else {
-        return Err("the bound of a point claims no load factor".into());
+        return Err("the bound of a point is not a load factor".into());
     };
     require(
         f,
@@ -377,11 +385,15 @@ fn follows(f: &mut Findings, carried: &Carried, drive: &Drive, poses: &[Pose], v
             (here.shift - there.shift).norm() / blocks[i].size + turn
         })
         .fold(0.0, f64::max);
-    require(f, off <= tolerance::ON_THE_WAY, format!("the supports are where {value} puts them"));
+    require(
+        f,
+        off <= tolerance::ON_THE_WAY,
+        format!("the supports lie where the movement at {value} puts them"),
+    );
     if let Some(d) = drive.demand(value) {
         let way = poses[d.block].way(&blocks[d.block].centroid, &d.point);
         let off = (way.dot(&d.toward) - value).abs() / blocks[d.block].size;
-        require(f, off <= tolerance::ON_THE_WAY, format!("the control point has gone {value} m"));
+        require(f, off <= tolerance::ON_THE_WAY, format!("the control point has moved {value} m"));
     }
 }
 

@@ -131,7 +131,7 @@ pub(super) fn held(f: &mut Findings, when: &str, assembly: &Assembly, left: &Lef
     let (by, id) = (left.greatest.greatest, &assembly.blocks[left.greatest.block].id);
     if left.exists {
         let text = format!(
-            "{when}forces that balance every free block exist inside their cones, within {by:.1e} g of the given ones"
+            "{when}exactly balanced forces exist inside the friction cones, within {by:.1e} g of those listed"
         );
         f.require_graded(true, Grade::Exact, text);
     } else {
@@ -148,14 +148,14 @@ pub fn cones(f: &mut Findings, when: &str, model: &Model, s: &certificate::Resid
     f.require(
         s.cone_excess <= tolerance::CONE,
         format!(
-            "{when}forces lie in their friction cones: largest excess {:.1e} of the force",
+            "{when}no joint exceeds its friction cone (largest excess {:.1e} of the force)",
             s.cone_excess
         ),
     );
     if s.crushing > 0.0 {
         let (used, joint) = (100.0 * s.crushing, joint(model, s.most_pressed));
         let text = format!(
-            "{when}no joint is pressed beyond its compressive strength: at most {used:.4} % of it, in {joint}"
+            "{when}no joint exceeds its compressive strength (at most {used:.4} % of it, in {joint})"
         );
         f.require(s.is_within_strength(), text);
     }

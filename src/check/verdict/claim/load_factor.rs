@@ -44,7 +44,7 @@ pub(super) fn dry(f: &mut Findings, model: &Model, forces: &Forces, rates: &[Rat
     f.require(
         in_loads <= tolerance::NATURAL_MAP,
         format!(
-            "with rates as the live load drives them: natural map {in_loads:.1e}, allowed {:.0e}",
+            "the same with rates scaled to the live load: natural map {in_loads:.1e}, allowed {:.0e}",
             tolerance::NATURAL_MAP
         ),
     );
@@ -63,7 +63,7 @@ pub(super) fn dry(f: &mut Findings, model: &Model, forces: &Forces, rates: &[Rat
     );
     f.require(
         hidden <= width,
-        format!("what the forces leave hides at most {hidden:.1e} of λ, allowed {width:.1e}"),
+        format!("the equilibrium error can change λ by at most {hidden:.1e}, allowed {width:.1e}"),
     );
 }
 
@@ -106,9 +106,7 @@ pub(super) fn load_factor(
     supported(f, model, (forces, rates), lower, width);
     let (open, narrow) = (upper - lower, 2.0 * width);
     if open.is_nan() || open.abs() > narrow {
-        f.fails.push(format!(
-            "the two sides do not meet: bracket {open:.1e} wide, allowed {narrow:.1e}"
-        ));
+        f.fails.push(format!("the bracket is too wide: {open:.1e}, allowed {narrow:.1e}"));
     }
     f.require(lower <= value && value <= upper, format!("λ = {value:.12} lies in its bracket"));
 }
@@ -147,7 +145,7 @@ pub(super) fn supported(
     f.require_graded(left <= allowed, Grade::ToRounding(left), text);
     f.require(
         hidden <= width,
-        format!("what they leave hides at most {hidden:.1e} of λ, allowed {width:.1e}"),
+        format!("the equilibrium error can change λ by at most {hidden:.1e}, allowed {width:.1e}"),
     );
     cones(f, &when, model, &s);
 }
@@ -181,7 +179,7 @@ pub(super) fn upper_end(
     f.require_graded(
         behind <= allowed,
         Grade::ToRounding(behind / value.abs().max(natural)),
-        format!("the mechanism is admissible: its rounding could hide at most {behind:.1e} of λ, allowed {allowed:.1e}"),
+        format!("the mechanism is admissible: its rounding can change λ by at most {behind:.1e}, allowed {allowed:.1e}"),
     );
     upper_bound(exact, || k.upper())
 }

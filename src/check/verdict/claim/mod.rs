@@ -28,7 +28,7 @@ pub enum Claim {
     /// The forces balance the dead load inside the friction cones.
     Stable,
     /// The forces balance the dead load inside the friction cones, but the base forces, which need
-    /// no pre-stress, leave a motion that obeys Coulomb's law with them.
+    /// no self-stress, leave a motion that obeys Coulomb's law with them.
     Conditional,
     /// The mechanism gains power under the dead load: nothing balances it.
     Unstable,
@@ -151,7 +151,7 @@ fn of_normals(model: &Model, claim: &Claim, evidence: Evidence) -> Findings {
             balanced(&mut f, "", model, forces, 0.0);
             match base {
                 Some(base) => moves(&mut f, model, base, rates),
-                None => f.fails.push("the forces without the pre-stress are missing".into()),
+                None => f.fails.push("the forces without the self-stress are missing".into()),
             }
         }
         Claim::Unstable => falls(&mut f, model, rates, false),

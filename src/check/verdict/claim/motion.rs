@@ -42,25 +42,25 @@ pub(super) fn without_live_power(f: &mut Findings, model: &Model, rates: &[Rate]
     if live == 0.0 {
         return f
             .holds
-            .push("the live load has no power on it, whatever its multiple (exact)".into());
+            .push("no multiple of the live load has power on the mechanism (exact)".into());
     }
     let reach = gain / norm(&assembly.dead) / (live / norm(&assembly.live));
     f.require_graded(
         reach >= tolerance::REACH,
         Grade::ToRounding(1.0 / reach),
-        format!("the live load gains no power: the proof holds for load factors up to {reach:.1e} × dead / live load of what moves"),
+        format!("the live load has no power on the mechanism: the proof holds for load factors up to {reach:.1e} × dead / live load of the moving blocks"),
     );
 }
 
 /// Forces from which a motion starts that obeys Coulomb's law with them.
 pub(super) fn moves(f: &mut Findings, model: &Model, base: &Forces, rates: &[Rate]) {
     let assembly = &model.assembly;
-    cones(f, "without a pre-stress, ", model, &certificate::statics(model, base, 0.0));
+    cones(f, "without self-stress, ", model, &certificate::statics(model, base, 0.0));
     let m = law::motion(model, base);
     f.require(
         m.acceleration >= tolerance::LEAST_MOTION,
         format!(
-            "without a pre-stress a block is left with {:.3e} g, at least {:.0e} needed",
+            "without self-stress a block stays out of balance by {:.3e} g, at least {:.0e} needed",
             m.acceleration,
             tolerance::LEAST_MOTION
         ),
@@ -77,7 +77,7 @@ pub(super) fn moves(f: &mut Findings, model: &Model, base: &Forces, rates: &[Rat
     f.require(
         m.natural_map_in_loads <= allowed,
         format!(
-            "to far less than that motion: natural map in g {:.1e}, allowed {allowed:.0e}",
+            "their error is far smaller than the motion: natural map in g {:.1e}, allowed {allowed:.0e}",
             m.natural_map_in_loads
         ),
     );
@@ -94,7 +94,7 @@ pub(super) fn moves(f: &mut Findings, model: &Model, base: &Forces, rates: &[Rat
     let cosine = dot(rates, &m.rates) / (dot(rates, rates) * dot(&m.rates, &m.rates)).sqrt();
     f.require(
         cosine >= 1.0 - tolerance::MOTION_LAW,
-        format!("the rates are that motion: cosine {cosine:.6}"),
+        format!("the rates listed agree with this motion: cosine {cosine:.6}"),
     );
 }
 
@@ -188,7 +188,7 @@ pub(super) fn gains(f: &mut Findings, model: &Model, rates: &[Rate]) {
         Grade::ToRounding(1.0 / cap),
         format!(
             // Rounding: its size is worth telling, its digits are not.
-            "the mechanism is admissible: joints close by less than {:.0e} of its speed; only contact forces above {:.0e} × the total load could hide behind that",
+            "the mechanism is admissible: joints close by less than {:.0e} of its speed; only contact forces above {:.0e} × the total load could make up for that",
             decade(k.inadmissibility, f64::ceil),
             decade(cap, f64::floor)
         ),

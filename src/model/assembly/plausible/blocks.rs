@@ -101,7 +101,7 @@ fn turned(scene: &Scene) -> Option<String> {
     let others = others(turns().count() - 1);
     turns().all(|t| is_radians(t.1)).then(|| {
         format!(
-            "Block {:?}{others} is turned by {}°, which is {}° in radians: \"rotation_deg\" takes degrees, write {}",
+            "Block {:?}{others} is rotated by {}°, which is {}° in radians: \"rotation_deg\" takes degrees, write {}",
             block.id,
             short(angle),
             round(angle),

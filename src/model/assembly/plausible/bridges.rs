@@ -46,7 +46,12 @@ pub(super) fn mistakes(scene: &Scene, assembly: &Assembly) -> Vec<String> {
             }
         }
         if let Some(fill) = &bridge.fill {
-            long("fill.cover".into(), fill.cover, (THINNEST, COVER), "no arch carries so much");
+            long(
+                "fill.cover".into(),
+                fill.cover,
+                (THINNEST, COVER),
+                "no arch carries so much cover",
+            );
         }
     }
     let axles = scene.train.iter().flat_map(|t| &t.axles).map(|a| a.force.size()).enumerate();

@@ -76,7 +76,7 @@ fn coefficient(friction: Friction, path: &JsonPath) -> Option<String> {
 fn angle(degrees: f64, path: &JsonPath) -> Option<String> {
     bounds::ANGLE_IN_RADIANS.contains(&degrees).then(|| {
         format!(
-            "{} is {} degrees, smoother than ice. It looks like radians ({:.1}°) or a coefficient (\"friction\": {degrees}, {:.1}°): write degrees",
+            "{} is {} degrees, less than ice has. It looks like radians ({:.1}°) or a coefficient (\"friction\": {degrees}, {:.1}°): write degrees",
             path.key("friction_angle_deg"),
             short(degrees),
             degrees.to_degrees(),
@@ -108,7 +108,7 @@ fn bond(key: &str, strength: f64, path: &JsonPath, weights: &Weights) -> Option<
     }
     let (unit, factor) = unit(strength, bounds::BOND_IN_MEGAPASCALS, bounds::BOND_IN_KILOPASCALS)?;
     Some(format!(
-        "{} is {} Pa, {} of what a block weighs on its area: it does next to nothing. It looks like {unit}: strengths are in Pa, write {:e}",
+        "{} is {} Pa, {} of what a block weighs on its area: it has almost no effect. It looks like {unit}: strengths are in Pa, write {:e}",
         path.key(key),
         short(strength),
         short(share),
@@ -142,7 +142,7 @@ fn stiffness(key: &str, stiffness: f64, path: &JsonPath, weights: &Weights) -> O
         return None;
     };
     Some(format!(
-        "{} is {} Pa/m: under the weight of one block it gives way by {} m. It looks like {unit}: stiffnesses are in Pa/m, write {:e}",
+        "{} is {} Pa/m: under the weight of one block the joint closes by {} m. It looks like {unit}: stiffnesses are in Pa/m, write {:e}",
         path.key(key),
         short(stiffness),
         short(closes),
@@ -159,7 +159,7 @@ fn young(young: f64, path: &JsonPath) -> Option<String> {
         return None;
     };
     Some(format!(
-        "{path} is {} Pa, softer than jelly. It looks like {unit}: moduli are in Pa, write {:e}",
+        "{path} is {} Pa, softer than any building material. It looks like {unit}: moduli are in Pa, write {:e}",
         short(young),
         young * factor
     ))

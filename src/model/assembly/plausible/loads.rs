@@ -57,7 +57,7 @@ pub(in crate::assembly) fn place(
         Some(off) if off.distance > bounds::FAR_OFF * block.size => {
             let meant =
                 off.meant(block, assembly).map_or(String::new(), |meant| format!("{meant}; "));
-            let hint = format!("{meant}where an arm carries it that far, say \"arm\": true");
+            let hint = format!("{meant}if an arm carries it that far, set \"arm\": true");
             Err(InputError::at(path.key("at"), off.words("the force", block)).hint(hint))
         }
         _ => Ok(()),
@@ -126,7 +126,7 @@ impl Off {
             return Some("in millimetres the point would lie on it: lengths are in m".into());
         }
         let other = assembly.blocks.iter().find(|b| on(b, self.point));
-        other.map(|b| format!("the point lies on block {:?}: is that the one that is meant?", b.id))
+        other.map(|b| format!("the point lies on block {:?}: was that block meant?", b.id))
     }
 
     /// `what` acts there, where an arm could carry `carried`.
@@ -139,7 +139,7 @@ impl Off {
     ) -> String {
         let remedy = self
             .meant(block, assembly)
-            .unwrap_or_else(|| format!("\"at\" is a point of the scene, in m; where an arm carries {carried}, say \"arm\": true"));
+            .unwrap_or_else(|| format!("\"at\" is a point of the scene, in m; if an arm carries {carried}, set \"arm\": true"));
         format!("{path}: {}; {remedy}", self.words(what, block))
     }
 }
@@ -151,7 +151,7 @@ fn again(load: &Load, assembly: &Assembly, path: &JsonPath) -> Option<String> {
         |v: [f64; 3], w: Vector3<f64>| (Vector3::from(v) - w).norm() <= bounds::SAME * w.norm();
     let by_weight = load.weight.is_some_and(|w| same(w, gravity / gravity.norm()));
     (by_weight || load.acceleration.is_some_and(|a| same(a, gravity))).then(|| {
-        format!("{path} is the blocks' own weight once more: it counts by itself, and doubled with this. Leave the load out, or raise the density")
+        format!("{path} repeats the blocks' own weight, which always acts and would count twice. Leave the load out, or raise the density")
     })
 }
 
@@ -173,7 +173,7 @@ fn force(load: &Load, block: &Block, assembly: &Assembly, path: &JsonPath) -> Op
     let weight = block.mass * assembly.gravity.norm();
     (bounds::FORCE_IN_KILONEWTONS.contains(&force) && force < bounds::LEAST_DEAD_FORCE * weight).then(|| {
         format!(
-            "{} is {} N on a block that weighs {} N: it does next to nothing. It looks like kN: forces are in N, write {:e}",
+            "{} is {} N on a block that weighs {} N: it has almost no effect. It looks like kN: forces are in N, write {:e}",
             path.key("force"),
             short(force),
             short(weight),

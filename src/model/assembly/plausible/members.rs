@@ -23,7 +23,7 @@ pub(in crate::assembly) fn point(
         Some(off) if off.distance > bounds::FAR_OFF * block.size => {
             let meant =
                 off.meant(block, assembly).map_or(String::new(), |meant| format!("{meant}; "));
-            let hint = format!("{meant}where an arm carries the force that far, say \"arm\": true");
+            let hint = format!("{meant}if an arm carries the force that far, set \"arm\": true");
             Err(InputError::at(path.clone(), off.words("the member", block)).hint(hint))
         }
         _ => Ok(()),
@@ -71,7 +71,7 @@ pub(in crate::assembly) fn members(
             if bounds::UNIT_WEIGHT_IN_KILONEWTONS.contains(&weight) && is_heavy {
                 units.add("unit_weight", || {
                     format!(
-                        "{} is {} N/m³, lighter than foam. It looks like kN/m³: write {:e}",
+                        "{} is {} N/m³, lighter than any soil or masonry. It looks like kN/m³: write {:e}",
                         path.key("unit_weight"),
                         short(weight),
                         weight * 1e3
@@ -100,7 +100,7 @@ pub(in crate::assembly) fn members(
         {
             units.add("strength", || {
                 format!(
-                    "{} has a strength of {} N on a block that weighs {} N: it does next to nothing. It looks like kN: forces are in N, write {:e}",
+                    "{} has a strength of {} N on a block that weighs {} N: it has almost no effect. It looks like kN: forces are in N, write {:e}",
                     member.path,
                     short(strength),
                     short(weight),

@@ -29,7 +29,7 @@ fn spectrum(key: &str, s: &Spectrum) -> Vec<String> {
     }
     if !AMPLIFICATION.contains(&s.f_0) {
         texts.push(format!(
-            "site.{key}.f_0 is {}: F0 lies between 2.2 and 3.5 all over Italy",
+            "site.{key}.f_0 is {}: F0 lies between 2.2 and 3.5 everywhere in Italy",
             short(s.f_0)
         ));
     }

@@ -118,7 +118,7 @@ impl fmt::Display for Mend {
                 };
                 write!(
                     f,
-                    "{them} listed before {} left out (the first is face {first}, the same as face {repeats})",
+                    "{them} already listed {} left out (the first is face {first}, the same as face {repeats})",
                     were(*faces)
                 )
             }
@@ -145,7 +145,7 @@ impl fmt::Display for Mend {
             }
             Mend::Backed { thickness } => write!(
                 f,
-                "its surface encloses nothing, and as it is held it was given a body of {} m on the side away from the free blocks",
+                "its surface encloses no volume; as a support it was given a thickness of {} m on the side away from the free blocks",
                 short(*thickness)
             ),
             Mend::Warped { faces, face, warp } => write!(
@@ -169,7 +169,7 @@ pub enum ShapeError {
     },
     /// So large or small that volumes and inertias leave the range of numbers.
     #[error(
-        "the shape measures {size:.3e} m across, outside the range {least:e} m to {most:e} m in which it can be computed with"
+        "the shape measures {size:.3e} m across, outside the range {least:e} m to {most:e} m that can be computed"
     )]
     OutOfRange {
         /// Bounding-box diagonal, m.
@@ -359,7 +359,7 @@ impl ShapeError {
                 "remove faces inside the solid and split solids that share a wall into separate blocks"
             }
             Self::OneSided { .. } => {
-                "the mesh closes on itself with a twist; model the solid anew or export it from a solid modeller"
+                "the mesh closes on itself with a twist; model the solid again or export it from a solid modeller"
             }
             Self::Flat { .. } => {
                 "a block needs a volume: give it thickness, and check that the unit is the same along all axes; a support may be a face (\"support\": true, or --support on import)"
@@ -367,7 +367,9 @@ impl ShapeError {
             Self::Nested { .. } => {
                 "wind the faces of a cavity so that they face into the cavity, or leave the inner surface out"
             }
-            Self::Tangled => "model the solid anew, with plane faces that meet at their edges only",
+            Self::Tangled => {
+                "model the solid again, with plane faces that meet at their edges only"
+            }
             Self::Overlap { .. } => "make the parts one solid (boolean union) or separate blocks",
         }
     }

@@ -40,7 +40,8 @@ pub(super) fn resolve(
     let mut around = Around { free: middle_of_free(scene), bounds: None };
     let mut add = |spec: &BlockSpec, place: &Origin| -> Result<(), InputError> {
         if is_over() {
-            let text = format!("the time was up after {} blocks had been resolved", blocks.len());
+            let text =
+                format!("time limit reached after {} blocks had been resolved", blocks.len());
             return Err(InputError::at(JsonPath::root(), text).hint("allow more time"));
         }
         blocks.push(block(scene, spec, place, around, &mut mended)?);
@@ -104,7 +105,7 @@ pub(super) fn in_scene(spec: &BlockSpec, point: Vector3<f64>) -> Result<Vector3<
 fn few(count: usize, path: &JsonPath) -> Result<(), InputError> {
     if count > limits::BLOCKS {
         let message = format!(
-            "the scene has {count} blocks with these, at most {} are taken",
+            "the scene has {count} blocks with these, more than the limit of {}",
             limits::BLOCKS
         );
         return Err(InputError::at(path.clone(), message)
@@ -166,7 +167,7 @@ fn block(
         && [volume, mass, body.size].iter().chain(&centroid).chain(&inertia).all(|x| x.is_finite());
     if !computable {
         let message = format!(
-            "the block is too small or too large to compute with: volume {volume:e} m³, mass {mass:e} kg"
+            "the block is too small or too large to compute: volume {volume:e} m³, mass {mass:e} kg"
         );
         return place
             .check(Err(InputError::at(root.key("shape"), message).hint("lengths are in m")));

@@ -76,8 +76,11 @@ fn one(
     let normal = spec.normal.map(|n| check::direction(n, &path.key("normal"))).transpose()?;
     if points.is_empty() {
         if spec.friction.is_some() {
-            return Err(InputError::at(path.key("friction"), "a normal alone takes no friction")
-                .hint("give the points as well, or a joint override for the pair"));
+            return Err(InputError::at(
+                path.key("friction"),
+                "a normal alone cannot have friction",
+            )
+            .hint("give the points as well, or a joint override for the pair"));
         }
         let normal = normal.ok_or_else(|| {
             InputError::at(path.clone(), "an interface needs at least one point, or a normal").hint(
@@ -88,22 +91,23 @@ fn one(
     }
     let extent = diagonal(&points);
     if !(extent * extent).is_finite() {
-        return Err(InputError::at(at, "the points are too far apart to compute with")
-            .hint("lengths are in m"));
+        return Err(
+            InputError::at(at, "the points are too far apart to compute").hint("lengths are in m")
+        );
     }
     let points = distinct(points, WELD * extent, path, notes);
 
     let slack = assembly.contact.angle_deg.to_radians().sin();
     let (points, normal) = match spread(&points, WELD * extent) {
         Spread::Point => {
-            (points, normal.ok_or_else(|| no_normal(path, "one point has no normal of its own"))?)
+            (points, normal.ok_or_else(|| no_normal(path, "one point does not define a normal"))?)
         }
         Spread::Line(from, to) => {
             if points.len() > 2 {
                 notes.add(Note::Inner, path, (points.len() - 2) as f64);
             }
             let normal = normal
-                .ok_or_else(|| no_normal(path, "points on one line have no normal of their own"))?;
+                .ok_or_else(|| no_normal(path, "points on one line do not define a normal"))?;
             let along = (points[to] - points[from]).normalize();
             let slope = normal.dot(&along);
             if slope.abs() > slack {
@@ -293,7 +297,7 @@ fn away(normal: Corner, one: &Block, two: &Block, path: &JsonPath) -> Result<Cor
     if height.abs() <= COPLANAR * (one.size + two.size) {
         return Err(InputError::at(
             path.clone(),
-            "the normal is missing: the centres of the two blocks do not tell which side is which",
+            "the normal is missing: the centres of the two blocks do not show which side is which",
         )
         .hint("add \"normal\": [x, y, z], from the first block into the second"));
     }

@@ -24,7 +24,9 @@ pub(super) fn resolve(scene: &Scene, names: &Names) -> Result<JointRules, InputE
     for (i, rule) in scene.joints.overrides.iter().enumerate() {
         let path = path.key("overrides").index(i);
         if rule.spec().is_empty() {
-            return Err(InputError::at(path, "the exception says nothing").hint("add \"friction\""));
+            return Err(
+                InputError::at(path, "the override sets no property").hint("add \"friction\"")
+            );
         }
         let law = law(&rule.spec(), default.as_ref(), &path)?.ok_or_else(|| {
             InputError::at(path.clone(), "no friction is given here or by the default")
@@ -46,11 +48,11 @@ pub(super) fn resolve(scene: &Scene, names: &Names) -> Result<JointRules, InputE
             (Some(_), Some(_)) => {
                 return Err(InputError::at(path, "both \"between\" and \"blocks\" are given")
                     .hint(
-                        "make two exceptions: \"between\" names materials, \"blocks\" names blocks",
+                        "make two overrides: \"between\" names materials, \"blocks\" names blocks",
                     ));
             }
             (None, None) => {
-                return Err(InputError::at(path, "it is not said where the exception holds")
+                return Err(InputError::at(path, "the override names no joints")
                     .hint("add \"between\": [material, material] or \"blocks\": [id, id]"));
             }
         }
@@ -82,7 +84,7 @@ fn law(
             path.key("compression"),
             "must be > 0: nothing could press on such a joint",
         )
-        .hint("leave it out where stone does not crush"));
+        .hint("leave it out where the stone does not crush"));
     }
     let pore_pressure = amount(
         "pore_pressure",

@@ -56,7 +56,7 @@ pub(super) fn resolve(
                     findings.push(Finding::new(
                         FindingCode::WithoutEffect,
                         format!(
-                            "{path}: {:.1} % of it presses beside the spans and is left out",
+                            "{path}: {:.1} % of it acts beside the spans and is ignored",
                             100.0 * spread.beside
                         ),
                     ));
@@ -82,7 +82,7 @@ pub(super) fn resolve(
     if let Some(i) = (0..dead.len()).find(|&i| !finite(&dead[i]) || !finite(&live[i])) {
         return Err(InputError::at(
             path,
-            format!("the load on block {:?} is too large to compute with", assembly.blocks[i].id),
+            format!("the load on block {:?} is too large to compute", assembly.blocks[i].id),
         )
         .hint("forces are in N, lengths in m, masses in kg"));
     }
@@ -105,7 +105,7 @@ fn massless(
         let what = if live { "a live load" } else { "a load that does not pull down" };
         return Err(InputError::at(
             path.key("massless"),
-            format!("{what} is taken for no weight anyway"),
+            format!("{what} has no mass in an earthquake anyway"),
         )
         .hint("remove \"massless\""));
     }
@@ -123,7 +123,7 @@ fn pushing(
     if assembly.blocks[i].support {
         return Err(InputError::at(
             path.key("block"),
-            format!("{:?} is a support: a mass pushed against it changes nothing", mass.block),
+            format!("{:?} is a support: a mass on it changes nothing", mass.block),
         )
         .hint("remove the mass"));
     }
@@ -144,12 +144,12 @@ fn on_road(
     if load.block.is_some() || load.at.is_some() || load.arm {
         return Err(InputError::at(
             here,
-            "says where the load presses, and so do block, at or arm",
+            "already places the load: it cannot be combined with \"block\", \"at\" or \"arm\"",
         )
         .hint("remove \"block\", \"at\" and \"arm\""));
     }
     if load.moment.is_some() || load.acceleration.is_some() || load.weight.is_some() {
-        return Err(InputError::at(here, "only a force presses on a road").hint("give \"force\""));
+        return Err(InputError::at(here, "only a force can act on a road").hint("give \"force\""));
     }
     let Some(force) = load.force else {
         return Err(InputError::at(path.clone(), "the load on the road has no force")
@@ -159,8 +159,8 @@ fn on_road(
     let down = assembly.gravity.normalize();
     if !(force.dot(&down) > 0.0 && (force - down * force.dot(&down)).norm() <= 1e-9 * force.norm())
     {
-        return Err(InputError::at(path.key("force"), "a load on a road presses down")
-            .hint("give what pushes along as a load on a block"));
+        return Err(InputError::at(path.key("force"), "a load on a road must act downward")
+            .hint("give a horizontal force as a load on a block"));
     }
     if !on.x.is_finite() {
         return Err(InputError::at(here.key("x"), "must be a finite number").hint("in m"));
@@ -209,7 +209,7 @@ fn add(
     let by_force = force.is_some() || moment.is_some();
     match (by_force, acceleration, weight) {
         (false, None, None) => {
-            return Err(InputError::at(path.clone(), "the load says nothing")
+            return Err(InputError::at(path.clone(), "the load has no value")
                 .hint("add \"force\", \"moment\", \"acceleration\" or \"weight\""));
         }
         (true, None, None) | (false, Some(_), None) | (false, None, Some(_)) => {}
@@ -223,30 +223,27 @@ fn add(
     }
     if [force, moment, acceleration, weight].into_iter().flatten().all(|v| v == Vector3::zeros()) {
         return Err(
-            InputError::at(path.clone(), "the load is zero: it does nothing").hint("remove it")
+            InputError::at(path.clone(), "the load is zero: it has no effect").hint("remove it")
         );
     }
     if load.at.is_some() && force.is_none() {
         return Err(
-            InputError::at(path.key("at"), "only a force acts at a point").hint("remove \"at\"")
+            InputError::at(path.key("at"), "only a force can act at a point").hint("remove \"at\"")
         );
     }
 
     if load.arm && !matches!(load.at, Some(At::Point(_))) {
         return Err(InputError::at(
             path.key("arm"),
-            "only a force at a point of its own hangs on an arm",
+            "only a force at a given point can have an arm",
         )
         .hint("remove \"arm\", or give \"at\""));
     }
 
     if by_force {
         let Some(i) = block else {
-            return Err(InputError::at(
-                path.clone(),
-                "it is not said which block the force or moment acts on",
-            )
-            .hint("add \"block\": id"));
+            return Err(InputError::at(path.clone(), "the force or moment has no block to act on")
+                .hint("add \"block\": id"));
         };
         let force = force.unwrap_or_default();
         let arm = match load.at {

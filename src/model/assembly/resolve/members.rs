@@ -79,11 +79,11 @@ impl Resolver<'_> {
         match given.iter().filter(|g| **g).count() {
             1 => {}
             0 => {
-                return Err(InputError::at(path.clone(), "the member is of no kind")
+                return Err(InputError::at(path.clone(), "the member has no kind")
                     .hint(format!("add {KINDS}")));
             }
             n => {
-                return Err(InputError::at(path.clone(), format!("the member is of {n} kinds"))
+                return Err(InputError::at(path.clone(), format!("the member has {n} kinds"))
                     .hint(format!("make a member of each: one of {KINDS}")));
             }
         }
@@ -113,7 +113,7 @@ impl Resolver<'_> {
             let soil = self.soil(s, &path.key("soil"))?;
             if soil.greatest == 0.0 {
                 let text = format!(
-                    "{}: the soil's surface lies below the middle of the face: it presses with nothing",
+                    "{}: the soil's surface lies below the middle of the face: it exerts no pressure",
                     path.key("soil").key("surface")
                 );
                 findings.push(Finding::new(FindingCode::WithoutEffect, text));
@@ -124,7 +124,7 @@ impl Resolver<'_> {
             return self.grip(g, id, &path.key("grip"), findings);
         }
         let Some(t) = toothing else {
-            return Err(InputError::at(path.clone(), "the member is of no kind"));
+            return Err(InputError::at(path.clone(), "the member has no kind"));
         };
         let toothing = self.toothing(t, &path.key("toothing"))?;
         let text = format!(
@@ -207,19 +207,17 @@ impl Resolver<'_> {
                     .hint("ends are points of the scene, in m"));
             }
             if !length.is_finite() {
-                return Err(
-                    InputError::at(path.index(k + 1), "too far to compute with").hint("in m")
-                );
+                return Err(InputError::at(path.index(k + 1), "too far to compute").hint("in m"));
             }
         }
         let moves = |a: &&Anchor| a.block.is_some_and(|b| !blocks[b].support);
         if !anchors.iter().any(|a| moves(&a)) {
-            let text = "no end is on a block that may move: the member does nothing";
+            let text = "no end is on a block that may move: the member has no effect";
             return Err(InputError::at(path.clone(), text).hint("name a free block at one end"));
         }
         let first = anchors[0].block;
         if anchors.iter().all(|a| a.block == first) {
-            let text = "all ends are on the same block: the member does nothing";
+            let text = "all ends are on the same block: the member has no effect";
             return Err(InputError::at(path.clone(), text)
                 .hint("name another block, or the ground, at one end"));
         }
@@ -237,7 +235,7 @@ impl Resolver<'_> {
             End { block: None, at: None, arm: false, ground: Some(at) } => {
                 Ok(Anchor { block: None, at: check::vector(*at, &path.key("ground"))? })
             }
-            _ => Err(InputError::at(path.clone(), "it is not said where the member ends")
+            _ => Err(InputError::at(path.clone(), "the place of this end is missing")
                 .hint("write { \"block\": id, \"at\": [x, y, z] }, or { \"ground\": [x, y, z] }")),
         }
     }
@@ -332,7 +330,7 @@ impl Resolver<'_> {
         let area: f64 =
             face.facets.iter().map(|(n, area)| area * (-n.dot(&direction)).max(0.0)).sum();
         if area <= 1e-9 * face.facets.iter().map(|f| f.1).sum::<f64>() {
-            let text = "the soil would not press on this face but along it, or pull";
+            let text = "the soil would pull on this face or act along it, not press on it";
             return Err(InputError::at(path.key("direction"), text)
                 .hint("give the direction in which the soil presses, into the face"));
         }
@@ -352,9 +350,9 @@ impl Resolver<'_> {
         let friction = at_least_zero(g.friction, &path.key("friction"), "a coefficient")?;
         let strength = strength(g.strength, &path.key("strength"))?;
         if strength.is_infinite() {
-            let text = "a finger applies its force: it has to be a number";
+            let text = "must be a number: a finger applies its force";
             return Err(InputError::at(path.key("strength"), text)
-                .hint("N; what only holds against is a strut or a block"));
+                .hint("in N; use a strut or a block for something that only resists"));
         }
         let places = match (g.at.is_some(), g.normal.is_some(), g.fingers.is_empty()) {
             (true, true, true) => vec![path.clone()],
@@ -362,7 +360,7 @@ impl Resolver<'_> {
                 (0..g.fingers.len()).map(|k| path.key("fingers").index(k)).collect()
             }
             _ => {
-                let text = "it is not said where the fingers are";
+                let text = "the place of the fingers is missing";
                 return Err(InputError::at(path.clone(), text).hint(
                     "give \"at\" and \"normal\", or \"fingers\": [ { \"at\": …, \"normal\": … } ]",
                 ));
@@ -376,7 +374,7 @@ impl Resolver<'_> {
             let normal = check::direction(finger.normal, &path.key("normal"))?;
             if normal.dot(&(self.assembly.blocks[on].centroid - at)) < 0.0 {
                 let text = format!(
-                    "{}: the finger presses away from the middle of block {:?}. Is the direction the one in which it presses, into the block?",
+                    "{}: the finger presses away from the middle of block {:?}. Should the direction point into the block?",
                     path.key("normal"),
                     g.block
                 );
@@ -464,7 +462,8 @@ impl Resolver<'_> {
             _ => None,
         };
         let Some(origin) = origin else {
-            let text = format!("block {:?} is no voussoir of an arch or barrel template", block.id);
+            let text =
+                format!("block {:?} is not a voussoir of an arch or barrel template", block.id);
             return Err(InputError::at(path.clone(), text).hint(
                 "name the face by \"+z\" and the like, or by a point: { \"near\": [x, y, z] }",
             ));

@@ -137,14 +137,12 @@ fn gravity(scene: &Scene, path: &JsonPath) -> Result<Vector3<f64>, InputError> {
     if gravity.norm() == 0.0 {
         return Err(InputError::at(
             path.clone(),
-            "gravity is zero: nothing presses the blocks together and there is nothing to decide",
+            "gravity is zero: nothing presses the blocks together, so there is nothing to decide",
         )
         .hint("leave the key out for 9.81 m/s² downward"));
     }
     if !gravity.norm().is_finite() {
-        return Err(
-            InputError::at(path.clone(), "gravity is too large to compute with").hint("m/s²")
-        );
+        return Err(InputError::at(path.clone(), "gravity is too large to compute").hint("m/s²"));
     }
     Ok(gravity)
 }

@@ -57,7 +57,7 @@ fn simple(points: &[Corner], path: &JsonPath) -> Result<(), InputError> {
                 format!("the corner repeats corner {}", i.min(j)),
             );
             return Err(error.hint(if j == 0 {
-                "leave the last corner out: the polygon is closed by itself"
+                "leave the last corner out: the polygon closes by itself"
             } else {
                 "leave one of them out"
             }));

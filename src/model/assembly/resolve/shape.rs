@@ -112,7 +112,7 @@ pub(super) fn body(
             if ends.iter().any(|v| v.iter().any(|x| !x.is_finite())) {
                 return place.check(Err(InputError::at(
                     path,
-                    "the coordinates are too large to compute with",
+                    "the coordinates are too large to compute",
                 )
                 .hint("lengths are in m")));
             }
@@ -210,7 +210,7 @@ pub(super) fn body(
             if vertices.iter().any(|v| v.iter().any(|x| !x.is_finite())) {
                 return place.check(Err(InputError::at(
                     path,
-                    "the coordinates are too large to compute with",
+                    "the coordinates are too large to compute",
                 )
                 .hint("lengths are in m")));
             }

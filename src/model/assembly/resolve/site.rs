@@ -33,7 +33,7 @@ fn spectrum(s: &Spectrum, path: &JsonPath) -> Result<(), InputError> {
     match (s.t_c, s.t_c_star, s.c_c) {
         (Some(_), None, None) | (None, Some(_), Some(_)) => {}
         (None, _, _) => {
-            return Err(InputError::at(path.clone(), "it is not said where T_C lies")
+            return Err(InputError::at(path.clone(), "T_C is not given")
                 .hint("give \"t_c\" in s, or \"t_c_star\" and \"c_c\" (NTC 2018, table 3.2.IV)"));
         }
         (Some(_), _, _) => {

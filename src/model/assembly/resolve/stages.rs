@@ -70,7 +70,7 @@ pub fn stages(scene: &Scene, assembly: &Assembly) -> Result<Vec<Stage>, InputErr
                     path.clone(),
                     "no free block stands at this stage: there is nothing to decide",
                 )
-                .hint("join it with the next stage, or leave a block free"));
+                .hint("merge it with the next stage, or leave a block free"));
             }
             all.push(now.clone());
         }
@@ -255,8 +255,8 @@ impl<'a> Known<'a> {
         let things = self.things(list, path)?;
         match things.iter().find(|(thing, _)| !matches!(thing, Thing::Block(_))) {
             Some((thing, path)) => {
-                let text = format!("{:?} is no block", self.name(thing));
-                Err(InputError::at(path.clone(), text).hint("only blocks stand here"))
+                let text = format!("{:?} is not a block", self.name(thing));
+                Err(InputError::at(path.clone(), text).hint("only blocks can be named here"))
             }
             None => Ok(things),
         }
@@ -301,9 +301,9 @@ impl<'a> Known<'a> {
             }
             _ => Err(InputError::at(
                 path.clone(),
-                "\"add_one_by_one\" and \"remove_one_by_one\" stand for stages of their own",
+                "\"add_one_by_one\" and \"remove_one_by_one\" make stages of their own and cannot be combined with other changes",
             )
-            .hint("make a stage of each")),
+            .hint("use a separate stage for each")),
         }
     }
 
@@ -317,14 +317,14 @@ impl<'a> Known<'a> {
                 match (*key, thing) {
                     ("add", _) if there => {
                         return refuse(
-                            format!("{name:?} is there already"),
+                            format!("{name:?} is already in place"),
                             "add it once, or remove it before",
                         );
                     }
                     ("add", _) => put(now, thing, true),
                     (_, _) if !there => {
                         return refuse(
-                            format!("{name:?} is not there"),
+                            format!("{name:?} is not in place"),
                             "add it before, in this stage or another",
                         );
                     }

@@ -102,7 +102,7 @@ fn blocks_that_mean_nothing_are_refused_with_place_and_remedy() {
         ),
         (
             r#"{ "id": "top", "shape": { "sphere": { "radius": 1e200 } } }"#,
-            "s.json:4:25: blocks[1].shape: the block is too small or too large to compute with: volume inf m³, mass inf kg; hint: lengths are in m",
+            "s.json:4:25: blocks[1].shape: the block is too small or too large to compute: volume inf m³, mass inf kg; hint: lengths are in m",
         ),
         (
             r#"{ "id": "top", "shape": { "polyhedron": { "vertices": [[0,0,0],[1,0,0],[0,1,0],[0,0,1]], "faces": [[0,2,1],[0,1,3],[1,2,3],[2,0,4]] } } }"#,
@@ -130,7 +130,7 @@ fn blocks_that_mean_nothing_are_refused_with_place_and_remedy() {
         ),
         (
             r#"{ "id": "top", "shape": { "prism": { "polygon": [[0,0],[1,0],[1,1],[0,0]], "depth": 1 } } }"#,
-            "s.json:4:68: blocks[1].shape.prism.polygon[3]: the corner repeats corner 0; hint: leave the last corner out: the polygon is closed by itself",
+            "s.json:4:68: blocks[1].shape.prism.polygon[3]: the corner repeats corner 0; hint: leave the last corner out: the polygon closes by itself",
         ),
         (
             r#"{ "id": "top", "shape": { "prism": { "polygon": [[0,0],[1,1],[1,0],[0,1]], "depth": 1 } } }"#,
@@ -168,11 +168,11 @@ fn scenes_that_mean_nothing_are_refused_with_place_and_remedy() {
     let cases = [
         (
             r#""gravity": [0, 0, 0],"#,
-            "s.json:6:12: gravity: gravity is zero: nothing presses the blocks together and there is nothing to decide; hint: leave the key out for 9.81 m/s² downward",
+            "s.json:6:12: gravity: gravity is zero: nothing presses the blocks together, so there is nothing to decide; hint: leave the key out for 9.81 m/s² downward",
         ),
         (
             r#""gravity": [1e300, 1e300, 0],"#,
-            "s.json:6:12: gravity: gravity is too large to compute with; hint: m/s²",
+            "s.json:6:12: gravity: gravity is too large to compute; hint: m/s²",
         ),
         (
             r#""materials": { "stone": { "density": 0 } },"#,
@@ -196,11 +196,11 @@ fn scenes_that_mean_nothing_are_refused_with_place_and_remedy() {
         ),
         (
             r#""joints": { "default": { "friction": 1 }, "overrides": [{ "friction": 0.5 }] }"#,
-            "s.json:6:57: joints.overrides[0]: it is not said where the exception holds; hint: add \"between\": [material, material] or \"blocks\": [id, id]",
+            "s.json:6:57: joints.overrides[0]: the override names no joints; hint: add \"between\": [material, material] or \"blocks\": [id, id]",
         ),
         (
             r#""joints": { "default": { "friction": 1 }, "overrides": [{ "blocks": ["base", "top"] }] }"#,
-            "s.json:6:57: joints.overrides[0]: the exception says nothing; hint: add \"friction\"",
+            "s.json:6:57: joints.overrides[0]: the override sets no property; hint: add \"friction\"",
         ),
         (
             r#""joints": { "default": { "friction": 1 }, "overrides": [{ "blocks": ["base", "topp"], "friction": 1 }] }"#,
@@ -216,7 +216,7 @@ fn scenes_that_mean_nothing_are_refused_with_place_and_remedy() {
         ),
         (
             r#""joints": { "default": { "friction": 1 }, "overrides": [{ "between": ["a", "a"], "blocks": ["top", "base"], "friction": 1 }] }"#,
-            "s.json:6:57: joints.overrides[0]: both \"between\" and \"blocks\" are given; hint: make two exceptions: \"between\" names materials, \"blocks\" names blocks",
+            "s.json:6:57: joints.overrides[0]: both \"between\" and \"blocks\" are given; hint: make two overrides: \"between\" names materials, \"blocks\" names blocks",
         ),
         (
             r#""contact": { "gap": 0.5 },"#,
@@ -233,7 +233,7 @@ fn scenes_that_mean_nothing_are_refused_with_place_and_remedy() {
         // loads
         (
             r#""loads": { "live": [{ "force": [1, 0, 0] }] },"#,
-            "s.json:6:21: loads.live[0]: it is not said which block the force or moment acts on; hint: add \"block\": id",
+            "s.json:6:21: loads.live[0]: the force or moment has no block to act on; hint: add \"block\": id",
         ),
         (
             r#""loads": { "live": [{ "block": "tip", "force": [1, 0, 0] }] },"#,
@@ -245,11 +245,11 @@ fn scenes_that_mean_nothing_are_refused_with_place_and_remedy() {
         ),
         (
             r#""loads": { "live": [{ "block": "top" }] },"#,
-            "s.json:6:21: loads.live[0]: the load says nothing; hint: add \"force\", \"moment\", \"acceleration\" or \"weight\"",
+            "s.json:6:21: loads.live[0]: the load has no value; hint: add \"force\", \"moment\", \"acceleration\" or \"weight\"",
         ),
         (
             r#""loads": { "live": [{ "weight": [0, 0, 0] }] },"#,
-            "s.json:6:21: loads.live[0]: the load is zero: it does nothing; hint: remove it",
+            "s.json:6:21: loads.live[0]: the load is zero: it has no effect; hint: remove it",
         ),
         (
             r#""loads": { "live": [{ "weight": [1, 0, 0], "acceleration": [1, 0, 0] }] },"#,
@@ -257,11 +257,11 @@ fn scenes_that_mean_nothing_are_refused_with_place_and_remedy() {
         ),
         (
             r#""loads": { "live": [{ "block": "top", "moment": [1, 0, 0], "at": [0, 0, 0] }] },"#,
-            "s.json:6:66: loads.live[0].at: only a force acts at a point; hint: remove \"at\"",
+            "s.json:6:66: loads.live[0].at: only a force can act at a point; hint: remove \"at\"",
         ),
         (
             r#""loads": { "live": [{ "block": "top", "force": [1e308, 0, 0], "at": [0, 0, 1e9], "arm": true }] },"#,
-            "s.json:6:10: loads: the load on block \"top\" is too large to compute with; hint: forces are in N, lengths in m, masses in kg",
+            "s.json:6:10: loads: the load on block \"top\" is too large to compute; hint: forces are in N, lengths in m, masses in kg",
         ),
         // given interfaces
         (
@@ -278,11 +278,11 @@ fn scenes_that_mean_nothing_are_refused_with_place_and_remedy() {
         ),
         (
             r#""interfaces": [{ "between": ["base", "top"], "points": [[0,0,0.5]] }],"#,
-            "s.json:6:16: interfaces[0]: the normal is missing: one point has no normal of its own; hint: add \"normal\": [x, y, z], from the first block into the second",
+            "s.json:6:16: interfaces[0]: the normal is missing: one point does not define a normal; hint: add \"normal\": [x, y, z], from the first block into the second",
         ),
         (
             r#""interfaces": [{ "between": ["base", "top"], "points": [[0,0,0.5],[1,0,0.5],[0.5,0,0.5]] }],"#,
-            "s.json:6:16: interfaces[0]: the normal is missing: points on one line have no normal of their own; hint: add \"normal\": [x, y, z], from the first block into the second",
+            "s.json:6:16: interfaces[0]: the normal is missing: points on one line do not define a normal; hint: add \"normal\": [x, y, z], from the first block into the second",
         ),
         (
             r#""interfaces": [{ "between": ["base", "top"], "points": [[0,0,0.5]], "normal": [0,0,0] }],"#,
@@ -298,7 +298,7 @@ fn scenes_that_mean_nothing_are_refused_with_place_and_remedy() {
         ),
         (
             r#""interfaces": [{ "between": ["base", "top"], "points": [[0,0,0.5],[1,0,0.5],[0,0,0.8]] }],"#,
-            "s.json:6:16: interfaces[0]: the normal is missing: the centres of the two blocks do not tell which side is which; hint: add \"normal\": [x, y, z], from the first block into the second",
+            "s.json:6:16: interfaces[0]: the normal is missing: the centres of the two blocks do not show which side is which; hint: add \"normal\": [x, y, z], from the first block into the second",
         ),
         (
             r#""interfaces": [{ "between": ["base", "top"], "points": [[0,0,0.5],[1,0,0.5]], "normal": [0,0,1], "friction": -1 }],"#,

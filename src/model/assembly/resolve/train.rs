@@ -27,27 +27,27 @@ pub(super) fn resolve(
     let here = path.key("path");
     if !train.path.iter().all(|x| x.is_finite()) {
         return Err(InputError::at(here, "must be two finite numbers")
-            .hint("x of the train's origin at the start and the end of its way, m"));
+            .hint("x of the train's origin at the start and the end of its path, m"));
     }
     let [from, to] = train.path;
     if from > to {
         return Err(InputError::at(
             here,
-            format!("the way goes from the lesser x to the greater, got {from} to {to}"),
+            format!("the path must run from the smaller x to the greater, got {from} to {to}"),
         )
-        .hint("exchange them: both directions of travel are asked about anyway"));
+        .hint("exchange them: both directions of travel are computed anyway"));
     }
     if (to - from) / train.step >= MOST_STEPS {
         return Err(InputError::at(
             path.key("step"),
-            format!("makes more than {MOST_STEPS} positions of a way of {} m", to - from),
+            format!("makes more than {MOST_STEPS} positions on a path of {} m", to - from),
         )
-        .hint("steps of a tenth of the clear span to a hundredth of it are usual"));
+        .hint("usual steps are a hundredth to a tenth of the clear span"));
     }
     let bridges: Vec<_> = scene.templates.iter().filter(|t| t.name() == "bridge").collect();
     if bridges.is_empty() {
-        return Err(InputError::at(path.clone(), "no road carries the train")
-            .hint("a train drives over the road of a template \"bridge\""));
+        return Err(InputError::at(path.clone(), "the scene has no road for the train")
+            .hint("add a template \"bridge\": the train drives over its road"));
     }
     // The widest reach of any axle to either side; a bridge lies within it or is passed by.
     let reach = train.axles.iter().map(|a| a.at.abs() + 0.5 * a.patch).fold(0.0, f64::max);
@@ -58,7 +58,7 @@ pub(super) fn resolve(
     };
     if !probe(0.5 * (from + to), (to - from) + 2.0 * reach) {
         let middles: Vec<String> = bridges.iter().map(|t| t.place().1[0].to_string()).collect();
-        return Err(InputError::at(here, "no axle comes to stand on a span")
+        return Err(InputError::at(here, "no axle reaches a span")
             .hint(format!("the middle of the bridge lies at x = {}", middles.join(" and "))));
     }
     Ok(())
@@ -82,7 +82,7 @@ fn axle(axle: &Axle, down: &Vector3<f64>, path: &JsonPath) -> Result<(), InputEr
             let v = check::vector(v, &here)?;
             let along = v.dot(down);
             if !(along > 0.0 && (v - down * along).norm() <= ALONG * v.norm()) {
-                return Err(InputError::at(here, "an axle presses down")
+                return Err(InputError::at(here, "an axle must press down")
                     .hint("give its force as a number in N, or as [0, 0, -force]"));
             }
             Ok(())

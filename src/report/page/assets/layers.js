@@ -128,7 +128,7 @@ const displacement = () => (view.motions[Math.max(state.motion, 0)] || {}).real;
 
 // The colours of the moment in words.
 function legend() {
-  const scale = { value: view.values && [view.values.name, ...view.values.ends], share: ["Share of a joint that is used", "0", "all"], force: ["Greatest force on a joint", "0", newtons(1)], speed: displacement() ? ["Displacement", "0", meters(displacement())] : ["Speed in the mechanism", "0", "fastest"], moved: ["Way so far", "0", farthest > 0 ? meters(farthest / (state.motion === FILM ? state.magnify : 1)) : "0"] }[state.colour];
+  const scale = { value: view.values && [view.values.name, ...view.values.ends], share: ["Utilisation of joints", "0", "100 %"], force: ["Greatest force on a joint", "0", newtons(1)], speed: displacement() ? ["Displacement", "0", meters(displacement())] : ["Speed in the mechanism", "0", "fastest"], moved: ["Displacement", "0", farthest > 0 ? meters(farthest / (state.motion === FILM ? state.magnify : 1)) : "0"] }[state.colour];
   const keys = LAYERS.filter(([name, , ink, there]) => ink && state.layers.has(name) && there()).map(([name, title, ink]) => make("span", {}, make("i", { class: name === "marks" ? "dot" : false, style: `border-color:var(${ink});${name === "marks" ? `background:var(${ink})` : ""}` }), title));
   if (state.colour === "material") bodies.materials.forEach((name, k) => keys.push(make("span", {}, make("i", { class: "dot", style: `background:rgb(${PALETTE[k % PALETTE.length].map((v) => Math.round(255 * v)).join(",")})` }), name)));
   const key = (ink, words) => make("span", {}, make("i", { style: `border-color:var(${ink})` }), words);

@@ -19,13 +19,13 @@ async function send() {
   const body = JSON.stringify({ question: wish(), epoch: live.epoch, edits: live.edits });
   try {
     const reply = await fetch("ask", { method: "POST", headers: { "Content-Type": "application/json" }, body });
-    if (!reply.ok) throw new Error(`the program says ${reply.status}`);
+    if (!reply.ok) throw new Error(`the program answered ${reply.status}`);
     live.wanted = (await reply.json()).revision;
     live.timer = setTimeout(free, 250);
     if (live.seen >= live.wanted) free();
   } catch (error) {
     live.busy = false;
-    old(`Nothing is asked any more: ${error.message}`);
+    old(`Not updated: ${error.message}`);
   }
 }
 function free() {
@@ -42,14 +42,14 @@ function old(words) {
   badge.textContent = words || "";
 }
 
-const LAWS = { associative: "Joints that slide open as well (associative): a bound. With dry friction it is being asked …", coulomb: "With dry friction.", "": "" };
+const LAWS = { associative: "Joints that slide open as well (associative): an upper bound. Computing with dry friction …", coulomb: "With dry friction.", "": "" };
 function answered(a) {
   const before = COUNT ? { length: view.length, middle: view.middle } : null, picked = state.picked;
   const name = picked && (picked.body !== undefined ? bodies.ids[picked.body] : nameOf(picked.joint));
   document.title = a.title;
   // Escaped by the program that wrote it.
   document.querySelector("header").innerHTML = a.head;
-  document.querySelector("header").append(make("p", { class: "law" }, a.edited ? `${LAWS[a.law]} Numbers differ from those of the file.` : LAWS[a.law]));
+  document.querySelector("header").append(make("p", { class: "law" }, a.edited ? `${LAWS[a.law]} Parameters differ from the file.` : LAWS[a.law]));
   el("words").innerHTML = a.facts;
   take(a.view);
   aim();
@@ -101,9 +101,9 @@ function stay(before) {
 }
 
 function said(s) {
-  const words = s.asking === "coulomb" ? "Asking with dry friction …" : s.asking !== undefined ? "Asking …" : s.error ? "There is a mistake in the scene." : `Answered in ${short(s.seconds, 2)} s.`;
+  const words = s.asking === "coulomb" ? "Computing with dry friction …" : s.asking !== undefined ? "Computing …" : s.error ? "The scene has a mistake." : `Answered in ${short(s.seconds, 2)} s.`;
   el("status").textContent = words;
-  if (s.asking !== undefined && s.revision !== live.revision && COUNT) old("Picture of the scene before; asking …");
+  if (s.asking !== undefined && s.revision !== live.revision && COUNT) old("Picture of the previous scene; computing …");
   if (s.error) problem(s.error);
   if (s.error || s.seconds !== undefined) { live.seen = Math.max(live.seen, s.revision); if (live.busy && live.seen >= live.wanted) free(); }
 }
@@ -114,7 +114,7 @@ function problem(error) {
   if (error.hint) lines.push(make("p", { class: "note" }, error.hint));
   el("problem").replaceChildren(...lines);
   el("problem").hidden = false;
-  if (COUNT) old("Picture of the last scene that could be asked, not of this one");
+  if (COUNT) old("The picture is out of date: the scene has a mistake");
 }
 
 // Tabs, and what belongs to them.
@@ -130,7 +130,7 @@ function tabs() {
   support.value = live.support;
   const parts = [];
   if (["settle", "thrust"].includes(live.question) && live.scene.supports.length) parts.push(make("label", {}, "Support ", support));
-  if (live.question === "settle" && live.way) ["x", "y", "z"].forEach((axis, k) => parts.push(...knob({ label: `moves along ${axis}, m`, value: live.way[k], low: -0.2 * span(), high: 0.2 * span(), whole: false }, (v) => { live.way[k] = v; })));
+  if (live.question === "settle" && live.way) ["x", "y", "z"].forEach((axis, k) => parts.push(...knob({ label: `movement along ${axis}, m`, value: live.way[k], low: -0.2 * span(), high: 0.2 * span(), whole: false }, (v) => { live.way[k] = v; })));
   el("options").replaceChildren(...parts);
   el("options").hidden = !parts.length;
   if (focus && el(focus)) el(focus).focus();
@@ -167,11 +167,11 @@ function heard(scene) {
   live.sliders.clear();
   if (!scene.supports.includes(live.support)) live.support = scene.supports[scene.supports.length - 1] || "";
   const rows = scene.knobs.map((k) => knob(k, (v) => { live.edits[k.pointer] = v; })[0]);
-  const more = rows.splice(FIRST_KNOBS), list = [make("h2", {}, "Numbers of the scene"), ...rows];
-  if (!scene.knobs.length) list.push(make("p", { class: "note" }, "Templates, joints, loads and materials with numbers would have sliders here."));
+  const more = rows.splice(FIRST_KNOBS), list = [make("h2", {}, "Parameters of the scene"), ...rows];
+  if (!scene.knobs.length) list.push(make("p", { class: "note" }, "Numbers of templates, joints, loads and materials appear here as sliders. This scene has none."));
   if (more.length) list.push(make("details", { id: "more-knobs", open: Boolean(open) }, make("summary", {}, `${more.length} more`), more));
-  if (scene.loads.length) list.push(make("p", { class: "note" }, "Arrows of loads can be dragged along the upper side."));
-  list.push(make("p", { class: "saving" }, make("button", { type: "button", onclick: save }, "Save this scene as a new file"), " ", make("button", { type: "button", onclick: undo }, "As in the file"), make("span", { id: "saved", role: "status" })));
+  if (scene.loads.length) list.push(make("p", { class: "note" }, "Load arrows can be dragged along the top of the blocks."));
+  list.push(make("p", { class: "saving" }, make("button", { type: "button", onclick: save }, "Save this scene as a new file"), " ", make("button", { type: "button", onclick: undo }, "Reset to the file"), make("span", { id: "saved", role: "status" })));
   el("knobs").replaceChildren(...list);
   tabs();
 }
@@ -184,9 +184,9 @@ function undo() {
 async function save() {
   try {
     const reply = await (await fetch("save", { method: "POST", headers: { "Content-Type": "application/json" }, body: "{}" })).json();
-    el("saved").textContent = reply.file ? ` Written: ${reply.file}` : ` Not written: ${reply.error}`;
+    el("saved").textContent = reply.file ? ` Saved: ${reply.file}` : ` Not saved: ${reply.error}`;
   } catch (error) {
-    el("saved").textContent = ` Not written: ${error.message}`;
+    el("saved").textContent = ` Not saved: ${error.message}`;
   }
 }
 
@@ -235,5 +235,5 @@ const hear = (kind, act) => events.addEventListener(kind, (e) => act(JSON.parse(
 hear("scene", heard);
 hear("answer", (a) => { answered(a); live.seen = Math.max(live.seen, a.revision); if (live.busy && live.seen >= live.wanted) free(); });
 hear("status", said);
-events.addEventListener("error", () => { el("status").textContent = "The program does not answer: it has ended, or is stopped."; old("Nothing is followed: the program does not answer"); });
+events.addEventListener("error", () => { el("status").textContent = "The program does not respond: it has ended or is stopped."; old("Not updated: the program does not respond"); });
 events.addEventListener("open", () => { if (live.revision) old(""); });

@@ -80,7 +80,7 @@ const tableOf = (rows) => make("table", {}, make("tbody", {}, rows.filter((r) =>
 
 function numbers() {
   const box = el("picked"), p = state.picked;
-  if (!p) return box.replaceChildren(make("p", { class: "note" }, "Click a block, an arrow, a hinge or a member, or choose from the list, to read its numbers. With joints shown, click a joint."));
+  if (!p) return box.replaceChildren(make("p", { class: "note" }, "Click a block, an arrow, a hinge or a member, or choose one from the list, to see its values. To click a joint, show the joints first."));
   box.replaceChildren(...(p.body !== undefined ? bodyNumbers(p.body) : p.member !== undefined ? memberNumbers(p.member) : jointNumbers(p.joint)));
 }
 
@@ -92,10 +92,10 @@ function bodyNumbers(i) {
     ["mass", withUnit(bodies.mass[i], "kg").replace("kkg", "t").replace("Mkg", "kt").replace("Gkg", "Mt")],
     ["centre of mass", place(at3(bodies.center, i))],
     ["radius", bodies.radius[i] > 0 ? meters(bodies.radius[i]) : null],
-    ["joints used", forces ? percent(forces.bodyUsed[i]) : null],
+    ["utilisation of joints", forces ? percent(forces.bodyUsed[i]) : null],
     ["displacement", motion && motion.real && !bodies.support[i] ? meters(motion.real * norm(at3(motion.velocity, i))) : null],
     ["speed", motion && !motion.real && !bodies.support[i] ? `${percent(speeds(motion)[i])} of the fastest corner` : null],
-    ["moved", state.motion === FILM ? `${meters(norm([poses[8 * i + 4], poses[8 * i + 5], poses[8 * i + 6]]) / state.magnify)}, turned ${short((360 / Math.PI) * Math.acos(Math.min(1, Math.abs(poses[8 * i + 3]))) / state.magnify, 3)}°` : null],
+    ["moved", state.motion === FILM ? `${meters(norm([poses[8 * i + 4], poses[8 * i + 5], poses[8 * i + 6]]) / state.magnify)}, rotated ${short((360 / Math.PI) * Math.acos(Math.min(1, Math.abs(poses[8 * i + 3]))) / state.magnify, 3)}°` : null],
     ...mine.map((k) => [loads.live[k] ? "live load" : "dead load", `${withUnit(norm(at3(loads.newton, k)), "N")} at ${place(at3(loads.at, k))}`]),
     ["touches", make("div", { class: "links" }, jointsOf[i].map((k) => jump({ joint: k }, bodies.ids[joints.a[k] === i ? joints.b[k] : joints.a[k]])))],
   ];
@@ -108,7 +108,7 @@ function memberNumbers(k) {
     ["", members.kinds[k]],
     ["force", force === null ? null : members.slack[k] ? "slack" : withUnit(force, "N")],
     ["strength", strength === null ? "no limit" : withUnit(strength, "N")],
-    ["used", force === null || !strength ? null : percent(Math.abs(force) / strength)],
+    ["utilisation", force === null || !strength ? null : percent(Math.abs(force) / strength)],
     ...Array.from({ length: members.start[k + 1] - members.start[k] }, (_, p) => { const n = members.start[k] + p, b = members.bodies[n]; return [p ? "to" : "at", make("span", {}, `${place(at3(members.points, n))} `, b < COUNT ? jump({ body: b }, bodies.ids[b]) : "on the ground")]; }),
   ];
   return [make("h2", {}, members.ids[k]), tableOf(rows)];
@@ -120,15 +120,15 @@ function jointNumbers(k) {
   const pressed = [];
   if (view.pressures) view.pressures.joint.forEach((j, n) => { if (j === k) pressed.push(...view.pressures.share.subarray(view.pressures.start[n], view.pressures.start[n + 1])); });
   const rows = [
-    ["", ["face on face", "edge", "point", "given by hand"][joints.kind[k]]],
+    ["", ["face on face", "edge", "point", "given in the scene"][joints.kind[k]]],
     ["area", joints.area[k] > 0 ? `${short(joints.area[k] * view.length ** 2)} m²` : null],
     ["law", joints.laws[joints.law[k]]],
-    ["normal force", there ? newtons(forces.normal[k]) : forces ? "carries nothing" : null],
+    ["normal force", there ? newtons(forces.normal[k]) : forces ? "no force" : null],
     ["shear force", there ? newtons(forces.shear[k]) : null],
     ["friction used", there && !Number.isNaN(forces.mobilised[k]) ? percent(forces.mobilised[k]) : null],
     ["mean pressure", there && joints.area[k] > 0 ? withUnit((forces.normal[k] * view.force) / (joints.area[k] * view.length ** 2), "Pa") : null],
     ["greatest pressure", pressed.length ? withUnit(view.pressures.greatest * Math.max(...pressed), "Pa") : null],
-    ["eccentricity", there && joints.area[k] > 0 ? `${meters(forces.eccentricity[k])}, ${percent(forces.used[k])} of the way to the edge${forces.kern[k] ? ", in the kern" : ""}` : null],
+    ["eccentricity", there && joints.area[k] > 0 ? `${meters(forces.eccentricity[k])}, ${percent(forces.used[k])} of the distance to the edge${forces.kern[k] ? ", in the kern" : ""}` : null],
     ["centre of pressure", there ? place(at3(forces.at, k)) : place(at3(joints.center, k))],
     ["mechanism", mark >= 0 ? motion.markKind[mark] : motion && !motion.real ? "at rest" : null],
     ["blocks", make("div", { class: "links" }, [joints.a[k], joints.b[k]].map((i) => jump({ body: i }, bodies.ids[i])))],

@@ -55,7 +55,7 @@ function fillList() {
   el("list").replaceChildren(...options);
   el("list").setAttribute("aria-label", { blocks: "Blocks", joints: "Joints", members: "Members" }[kind]);
   el("find").placeholder = `Find a ${kind.slice(0, -1)}`;
-  el("listNote").textContent = left ? `${left} more: type a part of the name` : "";
+  el("listNote").textContent = left ? `${left} more: type part of the name` : "";
 }
 el("kind").addEventListener("change", () => { el("find").value = ""; fillList(); });
 el("find").addEventListener("input", fillList);
@@ -128,7 +128,7 @@ function choices() {
   el("motion").replaceChildren(...options(motions));
   el("motionBox").hidden = !motions.length;
   el("kind").replaceChildren(...options([["blocks", "Blocks"], ["joints", "Joints"], members.ids.length && ["members", "Members"]].filter(Boolean)));
-  const kinds = [["stone", "stone"], bodies.materials.length > 1 && ["material", "material"], view.states.length && ["share", "joint share used"], view.states.length && ["force", "greatest force"], view.motions.length && ["speed", displacement() ? "displacement" : "speed in the mechanism"], view.film && view.film.way && ["moved", view.film.way], view.values && ["value", view.values.name.toLowerCase()]].filter(Boolean);
+  const kinds = [["stone", "stone"], bodies.materials.length > 1 && ["material", "material"], view.states.length && ["share", "utilisation of joints"], view.states.length && ["force", "greatest force"], view.motions.length && ["speed", displacement() ? "displacement" : "speed in the mechanism"], view.film && view.film.way && ["moved", view.film.way], view.values && ["value", view.values.name.toLowerCase()]].filter(Boolean);
   el("colour").replaceChildren(...options(kinds));
   if (view.film) {
     // The greatest round number that keeps the motion within a tenth of the picture.

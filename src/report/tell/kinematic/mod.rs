@@ -12,7 +12,7 @@ use crate::text::{
     options::{TextOptions, cut},
     page::{Page, Role},
 };
-use base::number::{bracketed, computed, ends, point, short};
+use base::number::{ends, point, rounded_down, rounded_up, short};
 use check::{
     kinematic::{Capacity, Elastic, LimitState, Participation, Unique},
     proof::{
@@ -31,8 +31,8 @@ pub(super) const TELLING: Telling = Telling {
     asked: |_| {
         [
             "At what horizontal acceleration does a mechanism start to move?",
-            "α0 is the horizontal push on every mass, as a multiple of its weight, at which the worst \
-             mechanism begins.",
+            "α0 is the horizontal push on every mass, as a multiple of its weight, at which the \
+             governing mechanism starts.",
         ]
     },
     title,
@@ -69,21 +69,20 @@ fn seven(v: f64) -> String {
 /// α0 with as many digits as are known.
 fn alpha(l: &LoadFactorAnswer) -> Option<String> {
     let value = l.value?;
-    Some(match l.associative.found() {
-        Some((bound, lower, upper)) if bound == value => bracketed(value, lower, upper),
-        _ => computed(value),
-    })
+    Some(rounded_down(value))
 }
 
 /// α0 in words.
 fn start(l: &LoadFactorAnswer) -> (String, Role) {
-    let bound = l.associative.found().map(|(v, lower, upper)| bracketed(v, lower, upper));
+    let bound = l.associative.found().map(|(.., upper)| rounded_up(upper));
     match (l.status, alpha(l), bound) {
         (FactorStatus::Found, Some(value), Some(bound)) if l.value != l.associative.value => {
-            (format!("α0 = {value} with dry friction, at most {bound}"), Role::Value)
+            (format!("α0 = {value} with dry friction (proved upper bound {bound})"), Role::Value)
         }
         (FactorStatus::Found, Some(value), _) => (format!("α0 = {value}"), Role::Value),
-        (FactorStatus::Unbounded, ..) => ("no earthquake moves it: it wedges".into(), Role::Good),
+        (FactorStatus::Unbounded, ..) => {
+            ("wedged: no horizontal acceleration moves it".into(), Role::Good)
+        }
         (FactorStatus::Impossible, ..) => ("falls, whatever the earthquake".into(), Role::Bad),
         // That it falls without an earthquake is said beside it.
         (FactorStatus::NotAtRest, _, Some(bound))
@@ -92,7 +91,7 @@ fn start(l: &LoadFactorAnswer) -> (String, Role) {
             (format!("α0 at most {bound}"), Role::Bad)
         }
         (FactorStatus::NotAtRest, ..) => {
-            ("no α0 with dry friction: not at rest under the dead load".into(), Role::Bad)
+            ("no α0 with dry friction: the blocks move under the dead load alone".into(), Role::Bad)
         }
         (_, _, Some(bound)) => {
             (format!("α0 at most {bound}; with dry friction undecided"), Role::Unsure)
@@ -108,7 +107,7 @@ pub(super) fn title(file: &ResultFile) -> (String, Role) {
     match (a.numbers.a0, a.numbers.a0_of_bodies) {
         (Some(a0), Some(least)) => {
             text += &format!(
-                ", a0 = {} m/s² with blocks that move as one counted as one, {} block by block,",
+                ", a0 = {} m/s² with blocks that move together as one body ({} block by block),",
                 seven(least),
                 seven(a0)
             );
@@ -119,14 +118,14 @@ pub(super) fn title(file: &ResultFile) -> (String, Role) {
     text += &format!(" towards {}", point(a.toward));
     if let Some(d) = &a.numbers.demand {
         let meets = |share: f64| {
-            let by = |r| format!(", by displacements {}", short(r * share));
+            let by = |r| format!(", displacement check {} × the demand", short(r * share));
             let displacement = d.displacement.map_or(String::new(), by);
-            format!("{} by the linear check{displacement}", short(d.linear * share))
+            format!("linear check {} × the demand{displacement}", short(d.linear * share))
         };
         let share = a.numbers.participation.as_ref().and_then(|p| p.share_of_bodies());
-        text += &format!("; of the demand it meets {}", meets(share.unwrap_or(1.0)));
+        text += &format!("; {}", meets(share.unwrap_or(1.0)));
         if share.is_some() {
-            text += &format!("; block by block {}", meets(1.0));
+            text += &format!("; block by block: {}", meets(1.0));
         }
         let least = a.numbers.least_ratio().unwrap_or(d.ratio);
         role = match () {
@@ -144,74 +143,80 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
     if let Some((value, lower, upper)) = a.alpha0.associative.found() {
         let [low, high] = ends(value, lower, upper);
         page.paragraph(&format!(
-            "Contact forces inside the friction cones balance the dead load and α × the weight of all masses towards {} up to α0 = {}, between {low} and {high} (both proved); beyond it the mechanism below moves. It is the worst of all mechanisms, none was drawn by hand.",
+            "Contact forces inside the friction cones balance the dead load and α × the weight of all masses towards {} up to α0 = {}, between {low} and {high} (both proved). Beyond it the mechanism below moves. It is the governing mechanism among all possible ones; none was assumed.",
             point(a.toward),
-            bracketed(value, lower, upper)
+            rounded_down(value)
         ));
         let law = match a.alpha0.law {
             Law::Associative => {
-                "Joints that slide open as well (associative): where it slides, an upper bound for dry friction."
+                "Joints that slide are taken to open as well (associative): where the mechanism slides, α0 is an upper bound for dry friction."
             }
             Law::Coulomb => {
-                "The bound counts joints that slide as opening (associative); what dry friction makes of it is said below."
+                "For this bound, joints that slide are taken to open as well (associative); the result with dry friction follows."
             }
         };
         page.paragraph(law);
         let slides = file.mechanism.as_ref().is_some_and(|m| m.joints.iter().any(slides));
         if slides && a.alpha0.found != Some(check::terms::Found::NothingSlides) {
             let whose = if a.alpha0.found == Some(check::terms::Found::FixedPoint) {
-                "δ, e* and M* are those of the mechanism with dry friction, not of the one that is shown."
+                "δ, e* and M* are those of the mechanism with dry friction, not of the one shown."
             } else {
-                "δ, e* and M* are those of the mechanism that is shown, in which joints open as they slide."
+                "δ, e* and M* are those of the mechanism shown, in which joints that slide open as well."
             };
-            page.paragraph(&format!("In the mechanism of the bound joints slide: {whose}"));
+            page.paragraph(&format!("Joints slide in the mechanism of the bound. {whose}"));
         }
     }
     if a.numbers.unique == Some(Unique::OneOfSeveral) {
-        page.paragraph("The mechanism is not the only one: the joints that it keeps closed allow others, which start at the same α0. δ, e*, M*, a0 and the curve are those of this one; others have other values.");
+        page.paragraph("The mechanism is not unique: others that keep the same joints closed start at the same α0. δ, e*, M*, a0 and the curve are those of the mechanism shown; the others have other values.");
     }
     if a.without_members {
-        page.paragraph("The curve, d0 and the displacements are those of the scene without its members: once they yield they are not counted on. The mechanism is the same without them.");
+        page.paragraph("The curve, d0 and the displacements are those of the scene without its members: once members yield they are not relied on. The mechanism is the same without them.");
     }
     if let Some(curve) = &a.curve_with_members {
-        let way = curve.value.map_or("nowhere".into(), |v| format!("{} m", short(v)));
+        let way = curve.value.map_or("no point".into(), |v| {
+            format!("a displacement of the control point of {} m", short(v))
+        });
         let end = match (curve.status, &curve.why) {
             (PathStatus::Vanishes, _) => "where it vanishes".to_string(),
             (_, Some(text)) => text.clone(),
             _ => "where it ends".into(),
         };
         page.paragraph(&format!(
-            "With its members there is a curve of its own, every point proved, up to a way of the control point of {way} ({end}). They hold up to their strength there, however far they have stretched: no limit state is read off it."
+            "With its members there is a separate curve, proved at every point, up to {way} ({end}). It assumes that members hold up to their strength at any elongation, so no limit state is read from it."
         ));
     }
     if let Some(text) = &a.no_curve_with_members {
         page.paragraph(&format!("There is no curve with members: {text}."));
     }
     if let Some(text) = &a.no_curve {
-        page.paragraph(&format!("There is no curve: {text}. No line is drawn in its place."));
+        page.paragraph(&format!(
+            "There is no curve: {text}. No straight line is drawn in its place."
+        ));
     } else if let (Some(curve), None) = (&a.curve, &a.numbers.capacity) {
-        let up_to = curve.value.map_or("nowhere".into(), |v| format!("{} m", short(v)));
+        let up_to = curve.value.map_or("no point".into(), |v| {
+            format!("a displacement of the control point of {} m", short(v))
+        });
         let reason = match (curve.status, &curve.why) {
             (PathStatus::Vanishes, _) => {
-                "it starts by another mechanism than the one above".to_string()
+                "it starts with another mechanism than the one above".to_string()
             }
             (_, Some(text)) => text.clone(),
-            _ => "it does not vanish".into(),
+            _ => "its load factor does not vanish".into(),
         };
         page.paragraph(&format!(
-            "The curve is known up to a way of the control point of {up_to}: {reason}. There is no d0, and no line is drawn in its place."
+            "The curve is known up to {up_to}: {reason}. There is no d0, and no straight line is drawn in its place."
         ));
     }
     let jumps = |e: &&PathEvent| e.kind == PathEventKind::Jumps;
     if let Some(e) = file.path.as_ref().and_then(|p| p.events.iter().find(jumps)) {
         page.paragraph(&format!(
-            "At a way of the control point of {} m the motion turns back and goes on elsewhere by a jump: what comes after it holds slowly, and inertia may carry it farther.",
+            "At a displacement of the control point of {} m the motion turns back and jumps to another configuration. What follows holds for slow motion; inertia may carry the structure farther.",
             short(e.value)
         ));
     }
     if let Some(c) = &a.numbers.capacity {
         page.paragraph(&format!(
-            "Its resistance vanishes at an equivalent displacement of d0 = {} m. Each point of the exact curve is a displaced scene with a proof; the straight line from a0 to d0 is the convention of practice.",
+            "The resistance vanishes at an equivalent displacement of d0 = {} m. Each point of the exact curve is a displaced scene with its own proof; the straight line from a0 to d0 is the simplification used in practice.",
             seven(c.d0)
         ));
     }
@@ -275,7 +280,7 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
         });
         let left = d.left_out.iter().map(|t| format!("not checked: {t}"));
         page.row("spectra", spectra(file));
-        let source = "spectra of NTC 2018, 3.2.3.2; ratios are those of accelerations, with the periods of the spectrum held".to_string();
+        let source = "spectra of NTC 2018, 3.2.3.2; ratios are those of accelerations, with the periods of the spectrum kept fixed".to_string();
         page.row("site", floor.into_iter().chain(checks).chain([source]).chain(left));
     }
     directions(page, &file.directions, options);
@@ -284,8 +289,8 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
 /// The load factor of a point.
 fn factor(p: &PathPoint) -> String {
     match p.certificate.claim {
-        Some(Claim::LoadFactor { value, lower, upper }) => {
-            format!("α = {}", bracketed(value, lower, upper))
+        Some(Claim::LoadFactor { value, .. }) => {
+            format!("α = {}", rounded_down(value))
         }
         _ => "not proved".into(),
     }
@@ -303,7 +308,7 @@ fn linear(page: &mut Page, a: &KinematicAnswer) {
             seven(p.e_star)
         ),
         format!(
-            "M* = e* Σ(P+Q) / g = {} kg, of Σ(P+Q) = {} N that move",
+            "M* = e* Σ(P+Q) / g = {} kg, with a moving weight of Σ(P+Q) = {} N",
             seven(p.mass),
             seven(p.weight)
         ),
@@ -319,11 +324,11 @@ fn linear(page: &mut Page, a: &KinematicAnswer) {
     {
         let [low, high] = [lower, upper].map(|v| a0 * v / value);
         let [low, high] = ends(a0, low, high);
-        lines.push(format!("a0 lies between {low} and {high} m/s², as α0 does in its bracket"));
+        lines.push(format!("a0 lies between {low} and {high} m/s², from the bracket of α0"));
     }
     if let Some(least) = a.numbers.a0_of_bodies {
         lines.push(format!(
-            "with blocks that move as one counted as one: e* = {}, a0 = {} m/s²; displacements and ratios of the site are less by about as much",
+            "with blocks that move together as one body: e* = {}, a0 = {} m/s²; displacements and ratios of the site decrease by about the same factor",
             seven(p.e_star_of_bodies),
             seven(least)
         ));
@@ -423,9 +428,9 @@ fn directions(page: &mut Page, list: &[Direction], options: TextOptions) {
                 .numbers
                 .demand
                 .as_ref()
-                .map_or(String::new(), |d| format!(", {} of the demand", short(d.ratio)));
+                .map_or(String::new(), |d| format!(", {} × the demand", short(d.ratio)));
             let bound = match a.alpha0.associative.status {
-                Outcome::Unbounded if a.alpha0.value.is_none() => "no limit".to_string(),
+                Outcome::Unbounded if a.alpha0.value.is_none() => "without a limit".to_string(),
                 _ => start(&a.alpha0).0,
             };
             format!("{:<width$}  {bound}{a0}{ratio}", point(a.toward))

@@ -13,7 +13,7 @@ use check::{
 };
 
 fn said(file: &ResultFile) -> Result<&KinematicAnswer, ReportError> {
-    file.answer.kinematic().ok_or_else(|| ReportError::new("this is no result of `kinematic`"))
+    file.answer.kinematic().ok_or_else(|| ReportError::new("this is not a result of `kinematic`"))
 }
 
 /// A point of the curve: way of the control point, m, acceleration, m/s², load factor with its
@@ -142,9 +142,10 @@ pub fn chart(file: &ResultFile) -> Option<Chart> {
         list.iter().map(|p| (ratio.unwrap_or(1.0) * p.way, p.acceleration)).collect()
     };
     let mut all = Vec::new();
-    for (name, list) in
-        [("exact curve, every point proved", &list), ("the same with members", &tied)]
-    {
+    for (name, list) in [
+        ("exact curve, every point proved", &list),
+        ("exact curve with members, every point proved", &tied),
+    ] {
         if list.len() > 1 {
             all.push(series(name, true, drawn(list)));
         }
@@ -157,7 +158,7 @@ pub fn chart(file: &ResultFile) -> Option<Chart> {
     let x = if ratio.is_some() {
         "equivalent displacement d, m"
     } else {
-        "way of the control point, m"
+        "displacement of the control point, m"
     };
     Some(Chart {
         title: "Capacity curve".into(),

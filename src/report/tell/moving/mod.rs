@@ -11,7 +11,7 @@ use crate::text::{
     page::Page,
 };
 use base::{
-    number::{self, bracketed, computed, count, short},
+    number::{count, rounded_down, rounded_up, short},
     tolerance,
 };
 use check::{
@@ -75,11 +75,11 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
         n => format!(" At {} no axle stands on a span.", count(n, "other step")),
     };
     let ways = match train::travels(train) {
-        [_] => "The train is the same from both ends, and so are both directions of travel.",
-        _ => "Both directions of travel were asked about, the train turned round.",
+        [_] => "The train is symmetric, so both directions of travel give the same answer.",
+        _ => "Both directions of travel were computed, with the train reversed.",
     };
     page.paragraph(&format!(
-        "The axles of the train, where it stands, are the live load. Of {} this is the least: {} of {} m{}, each with a proof of its own.{off} Between them nothing is proved. {ways}",
+        "The axles of the train at its position are the live load. The answer is the least of {}: {} of {} m{}, each with its own proof.{off} Nothing is proved between them. {ways}",
         count(file.directions.len(), "position"),
         count(taken, "step"),
         short(train.step),
@@ -89,8 +89,8 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
     let at_least = file.directions.iter().filter(only).count();
     if at_least > 0 {
         page.paragraph(&format!(
-            "With dry friction {} asked for a value, where the bound is least; of the {at_least} others only that the blocks come to rest at what these bear, up to {} of it (computed, not proved). --every-value asks for all.",
-            if file.directions.len() - at_least == 1 { "one position was".into() } else { format!("{} positions were", file.directions.len() - at_least) },
+            "With dry friction, the load factor was computed for {} where the bound is least. For the {at_least} others, the blocks were only shown to come to rest at {} × the answer (computed, not proved). --every-value computes all.",
+            if file.directions.len() - at_least == 1 { "one position".into() } else { format!("{} positions", file.directions.len() - at_least) },
             1.0 - tolerance::REST_BELOW,
         ));
     }
@@ -103,7 +103,7 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
     let axle = |s: &train::Standing| {
         let beside = match 1.0 - s.share {
             b if b > 1e-9 => {
-                format!(", {:.1} % of it beside the spans and left out", 100.0 * b)
+                format!(", {:.1} % of it outside the spans and neglected", 100.0 * b)
             }
             _ => String::new(),
         };
@@ -118,20 +118,22 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
     let line = |a: &&MovingAnswer| {
         let l = &a.load_factor;
         let value = match (l.status, l.value, l.associative.found()) {
-            (FactorStatus::Found, Some(v), Some((bound, lower, upper))) if v == bound => {
-                format!("λ = {}", bracketed(v, lower, upper))
+            (FactorStatus::Found, Some(v), Some((bound, ..))) if v == bound => {
+                format!("λ = {}", rounded_down(v))
             }
-            (FactorStatus::Found, Some(v), _) => format!("λ = {} with dry friction", computed(v)),
-            (FactorStatus::Unbounded, ..) => "no limit".into(),
+            (FactorStatus::Found, Some(v), _) => {
+                format!("λ = {} with dry friction", rounded_down(v))
+            }
+            (FactorStatus::Unbounded, ..) => "without a limit".into(),
             (FactorStatus::Impossible, ..) => "falls, whatever the train".into(),
             (FactorStatus::AtLeast, _, bound) => {
-                let most = bound.map(|(.., upper)| format!(", at most {}", number::moving(upper)));
-                let least = l.lower.map(computed).unwrap_or_default();
+                let most = bound.map(|(.., upper)| format!(", at most {}", rounded_up(upper)));
+                let least = l.lower.map(rounded_down).unwrap_or_default();
                 format!("λ at least {least} with dry friction{}", most.unwrap_or_default())
             }
-            (FactorStatus::NotAtRest, ..) => "not at rest without the train".into(),
-            (_, _, Some((v, lower, upper))) => {
-                format!("λ at most {}, with dry friction undecided", bracketed(v, lower, upper))
+            (FactorStatus::NotAtRest, ..) => "moves without the train".into(),
+            (_, _, Some((.., upper))) => {
+                format!("λ at most {}, with dry friction undecided", rounded_up(upper))
             }
             _ => "undecided".into(),
         };

@@ -12,7 +12,7 @@ use model::train::{Travel, is_symmetric};
 fn said(file: &ResultFile) -> Result<Vec<&MovingAnswer>, ReportError> {
     let list: Vec<_> = file.directions.iter().filter_map(|d| d.answer.moving()).collect();
     match list.is_empty() {
-        true => Err(ReportError::new("this is no result of `limit --moving`")),
+        true => Err(ReportError::new("this is not a result of `limit --moving`")),
         false => Ok(list),
     }
 }
@@ -86,7 +86,7 @@ fn lines(file: &ResultFile, list: &[&MovingAnswer]) -> Vec<Line> {
             points.push((a.x, value(a).filter(|y| *y <= HIGH * least.abs())));
         }
         let words = if symmetric { BOTH } else { travel.words() };
-        (if bounds { format!("{words}, at most") } else { words.into() }, points)
+        (if bounds { format!("{words}, upper bound") } else { words.into() }, points)
     };
     [Travel::Forward, Travel::Backward]
         .into_iter()
@@ -108,9 +108,9 @@ fn valued(list: &[&MovingAnswer]) -> Vec<(f64, f64)> {
 }
 
 /// What such positions are called.
-const VALUED: &str = "with dry friction, where asked";
+const VALUED: &str = "with dry friction, where computed";
 
-const X: &str = "place of the train's origin, m";
+const X: &str = "position of the train's origin, m";
 const Y: &str = "load factor λ";
 
 /// The chart of a page, with a cursor that goes with the film.
@@ -133,13 +133,15 @@ pub fn chart(file: &ResultFile) -> Option<Chart> {
     }
     let dry: Vec<_> = valued(&list).into_iter().map(|(x, y)| (x, Some(y))).collect();
     all.extend((!dry.is_empty()).then(|| series(VALUED, false, &dry)));
-    all.extend(worst(file).map(|p| series("the least", false, &[(p.0, Some(p.1))])));
+    all.extend(worst(file).map(|p| series("governing position", false, &[(p.0, Some(p.1))])));
     Some(Chart {
-        title: "Load factor where the train stands".into(),
+        title: "Load factor by position of the train".into(),
         x: Axis::new(X, false),
         y: Axis::new(Y, false),
         series: all,
-        note: format!("up to {HIGH} × the least; every point proved, nothing between them"),
+        note: format!(
+            "shown up to {HIGH} × the least; every point is proved, nothing between them"
+        ),
         film: true,
         ..Chart::default()
     })

@@ -7,7 +7,7 @@ use crate::text::{
     options::{TextOptions, cut},
     page::{Page, Role},
 };
-use base::number::{bracketed, count, fixed, moving, point, short};
+use base::number::{count, fixed, point, rounded_down, rounded_up, short};
 use check::question::{Question, QuestionKind};
 use check::{
     proof::{
@@ -21,7 +21,10 @@ use table::{along, bound, happens};
 pub(super) const SETTLE: Telling = Telling {
     verb: "settle",
     asked: |_| {
-        ["How far may supports move until it falls?", "A share of the movement given, and metres."]
+        [
+            "How far can supports move before it falls?",
+            "The answer is a share of the imposed movement, with its length in metres.",
+        ]
     },
     title,
     why,
@@ -35,8 +38,8 @@ pub(super) const PUSH: Telling = Telling {
     verb: "push",
     asked: |_| {
         [
-            "How does the load factor change as it moves?",
-            "λ multiplies the live loads; the way is that of the control point, in metres.",
+            "How does the load factor change as the mechanism moves?",
+            "λ multiplies the live loads; displacements are those of the control point, in metres.",
         ]
     },
     title,
@@ -63,9 +66,9 @@ fn farthest(path: &PathResult) -> Option<f64> {
 fn at(path: &PathResult, value: f64, decimals: usize) -> String {
     let number = fixed(value, decimals);
     match farthest(path) {
-        Some(way) => format!("{number} of the movement ({} m)", short(way * value)),
+        Some(way) => format!("{number} of the imposed movement ({} m)", short(way * value)),
         None if matches!(path.driven_by, DrivenBy::Supports(_)) => {
-            format!("{number} of the movement")
+            format!("{number} of the imposed movement")
         }
         None => format!("{number} m"),
     }
@@ -81,7 +84,7 @@ pub(super) fn title(file: &ResultFile) -> (String, Role) {
         (None, _) => (text, role),
         (Some(v), role) => (
             format!(
-                "jumps at {}; beyond the jump, by a motion that is not followed, {text}",
+                "jumps at {}; after the jump, whose motion is not traced, {text}",
                 at(path, v, 6)
             ),
             if role == Role::Good { Role::Unsure } else { role },
@@ -93,31 +96,30 @@ fn followed(a: &PathAnswer, path: &PathResult) -> (String, Role) {
     let known = a.value.map(|v| at(path, v, 6));
     let up_to = known.clone().unwrap_or_else(|| "nowhere".into());
     match (a.status, a.value, a.falls_at) {
-        (PathStatus::Falls, Some(lower), Some(upper)) => {
-            let number = bracketed(lower, lower, upper);
-            let way = farthest(path).map_or(String::new(), |w| {
-                format!(" ({} m)", bracketed(w * lower, w * lower, w * upper))
-            });
+        (PathStatus::Falls, Some(lower), Some(_)) => {
+            let number = rounded_down(lower);
+            let way = farthest(path)
+                .map_or(String::new(), |w| format!(" ({} m)", rounded_down(w * lower)));
             let unit = if matches!(path.driven_by, DrivenBy::Supports(_)) {
-                "of the movement"
+                "of the imposed movement"
             } else {
                 "m"
             };
             (format!("stands up to {number} {unit}{way}, then falls"), Role::Bad)
         }
         (PathStatus::Reached, Some(_), _) => {
-            ("stands through the whole movement".into(), Role::Good)
+            ("stands through the whole imposed movement".into(), Role::Good)
         }
         (PathStatus::Vanishes, Some(_), _) => {
-            (format!("its load factor vanishes at {up_to}"), Role::Value)
+            (format!("the load factor vanishes at {up_to}"), Role::Value)
         }
         (PathStatus::Slides, Some(0.0), _) => {
             let push = a.least_reaction.filter(|_| farthest(path).is_some()).map(|l| {
-                let value = bracketed(l.value, l.lower, l.upper);
-                format!("the blocks push with {value} N·m at least as the supports begin to move; ")
+                let value = rounded_down(l.value);
+                format!("the thrust on the supports does at least {value} N·m of work as they begin to move; ")
             });
             let text =
-                format!("{}a joint slides at once, undecided beyond", push.unwrap_or_default());
+                format!("{}a joint slides immediately, undecided beyond", push.unwrap_or_default());
             (text, Role::Unsure)
         }
         (PathStatus::Slides, Some(_), _) => (
@@ -134,15 +136,15 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
     let Some(a) = file.answer.path() else { return };
     match a.status {
         PathStatus::Falls => page.paragraph(
-            "The motion is followed along its linkage with finite rotations. At the last value contact forces inside the friction cones balance the loads of the displaced scene; at the next nothing does, and no other equilibrium was found where the mechanism goes from there.",
+            "The motion is followed with finite rotations. At the last value, contact forces inside the friction cones balance the loads of the displaced scene. At the next value no forces do, and no other equilibrium was found where the mechanism leads.",
         ),
         PathStatus::Slides => page.paragraph(
-            "What slides would open as well in limit analysis, and dry joints do not: beyond the first instant such a motion is wrong. No motion under dry friction was found that leads on.",
+            "In limit analysis a joint that slides also opens; a dry joint does not, so that motion is wrong beyond the first instant. No motion with dry friction was found that continues the path.",
         ),
         PathStatus::Reached | PathStatus::Vanishes | PathStatus::Open => {}
     }
     if let Some(text) = &a.why {
-        page.paragraph(&format!("Not followed any further: {text}."));
+        page.paragraph(&format!("Not followed further: {text}."));
     }
     let asked = match &file.question {
         Question::Settle(o) => &o.at[..],
@@ -152,23 +154,24 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
     let missed = asked.iter().filter(|v| a.value.is_none_or(|last| **v > last));
     let missed: Vec<String> = missed.map(|v| short(*v)).collect();
     if !missed.is_empty() {
-        page.paragraph(&format!("Asked for by --at and not reached: {}.", missed.join(", ")));
+        page.paragraph(&format!("Asked for with --at but not reached: {}.", missed.join(", ")));
     }
     let events = file.path.iter().flat_map(|p| &p.events);
     if events.into_iter().any(|e| e.kind == PathEventKind::Slides) {
-        page.paragraph("Where joints slide the motion is that of dry friction: they slide without opening, against μ times what presses them. Other states may be admissible beside it.");
+        page.paragraph("Where joints slide, the motion follows dry friction: they slide without opening, against μ × the normal force. Other states may also be admissible.");
     }
     if file.question.kind() == QuestionKind::Push {
-        page.paragraph("At each point the load factor is that of the displaced scene, between forces that balance it and a mechanism that admits no more; the point moves as the mechanism takes it. Where it slides by dry friction it is that of forces and a mechanism that obey Coulomb's law together, and at most the bound beside it.");
+        page.paragraph("At each point the load factor is that of the displaced scene: forces prove its lower end, a mechanism its upper end. The control point moves with the mechanism. Where joints slide with dry friction, forces and a mechanism that obey Coulomb's law together give the load factor, and it is at most the bound listed.");
     }
-    page.paragraph("Every point is a scene of its own, with a proof. That the poses are those that the scene passes through is computed, not proved.");
+    page.paragraph("Every point is a displaced scene with its own proof. That the structure passes through these poses is computed, not proved.");
 }
 
 /// The curve, its events and its ends.
 pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
     let (Some(a), Some(path)) = (file.answer.path(), &file.path) else { return };
     if let Some(l) = a.least_reaction {
-        let unit = if farthest(path).is_some() { "N·m for the whole movement" } else { "J" };
+        let unit =
+            if farthest(path).is_some() { "N·m for the whole imposed movement" } else { "J" };
         let text = format!(
             "{} {unit}, as the supports begin to move (between {} and {})",
             short(l.value),
@@ -217,8 +220,8 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
         )],
     );
     if file.run.between > 0 {
-        let text = "between the points, where closed joints stayed closed, no blocks overlapped and forces inside the cones were found; computed, no load factor is proved there";
-        page.row("looked at", [format!("{} {text}", count(file.run.between, "pose"))]);
+        let text = "between the points: closed joints stayed closed, no blocks overlapped and forces inside the friction cones were found (computed; no load factor is proved there)";
+        page.row("in between", [format!("{} {text}", count(file.run.between, "pose"))]);
     }
 }
 
@@ -234,14 +237,14 @@ fn line(path: &PathResult, p: &PathPoint) -> String {
     let head = format!("{:<10}", short(p.value));
     match p.certificate.claim {
         Some(Claim::LoadFactor { upper, .. }) if p.load_factor.is_none() => {
-            format!("{head} λ at most {}, the bound", moving(upper))
+            format!("{head} λ at most {}, the bound", rounded_up(upper))
         }
-        Some(Claim::LoadFactor { value, lower, upper }) => {
-            format!("{head} λ = {}", bracketed(value, lower, upper))
+        Some(Claim::LoadFactor { value, .. }) => {
+            format!("{head} λ = {}", rounded_down(value))
         }
         Some(Claim::DryLoadFactor { value }) => {
-            let most = bound(p).map_or(String::new(), |b| format!(", at most {}", moving(b)));
-            format!("{head} λ = {} by dry friction{most}", fixed(value, 6))
+            let most = bound(p).map_or(String::new(), |b| format!(", at most {}", rounded_up(b)));
+            format!("{head} λ = {} with dry friction{most}", fixed(value, 6))
         }
         Some(Claim::Stable) => {
             let all = along(path, p);
@@ -252,7 +255,7 @@ fn line(path: &PathResult, p: &PathPoint) -> String {
                 let least = all.iter().map(|f| f.1).fold(f64::INFINITY, f64::min);
                 let greatest = all.iter().map(|f| f.1).fold(f64::NEG_INFINITY, f64::max);
                 return format!(
-                    "{head} stands; along their ways on {} supports from {} N to {} N",
+                    "{head} stands; reactions along the movements of {} supports from {} N to {} N",
                     all.len(),
                     short(least),
                     short(greatest)
@@ -260,7 +263,7 @@ fn line(path: &PathResult, p: &PathPoint) -> String {
             }
             let forces: Vec<String> =
                 all.into_iter().map(|(id, f)| format!("{id} {} N", short(f))).collect();
-            format!("{head} stands; along its way on {}", forces.join(", on "))
+            format!("{head} stands; reaction along the movement: {}", forces.join(", "))
         }
         _ => format!("{head} not proved"),
     }

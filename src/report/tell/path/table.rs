@@ -17,8 +17,8 @@ use check::{
 /// The unit of the parameter, in words.
 pub fn parameter(path: &PathResult) -> &'static str {
     match path.driven_by {
-        DrivenBy::Supports(_) => "share of the movement",
-        DrivenBy::Control { .. } => "way of the control point, m",
+        DrivenBy::Supports(_) => "share of the imposed movement",
+        DrivenBy::Control { .. } => "displacement of the control point, m",
     }
 }
 
@@ -49,7 +49,7 @@ fn farthest(point: &PathPoint) -> f64 {
 /// # Errors
 /// The result holds no curve.
 pub fn csv(file: &ResultFile) -> Result<String, ReportError> {
-    let path = file.path.as_ref().ok_or_else(|| ReportError::new("this is no result of one"))?;
+    let path = file.path.as_ref().ok_or_else(|| ReportError::new("this result holds no path"))?;
     let mut head: Vec<String> =
         ["value", "proved", "load_factor", "lower", "upper", "farthest"].map(String::from).into();
     if let DrivenBy::Supports(list) = &path.driven_by {
@@ -99,7 +99,7 @@ pub fn held_by(path: &PathResult) -> &'static str {
     if path.points.iter().any(|p| p.load_factor.is_some()) {
         "load factor"
     } else {
-        "force on the support along its way, N"
+        "reaction along the movement of the support, N"
     }
 }
 
@@ -127,7 +127,7 @@ pub fn happens(e: &PathEvent) -> String {
         list.iter().map(|[a, b]| format!("{a} | {b}")).collect::<Vec<_>>().join(", ")
     };
     match e.kind {
-        PathEventKind::Opens => format!("{} opens as well", names(&e.opens)),
+        PathEventKind::Opens => format!("{} also opens", names(&e.opens)),
         PathEventKind::Closes => format!("{} closes", names(&e.closes)),
         PathEventKind::Jumps => {
             let closes = if e.closes.is_empty() {
@@ -136,25 +136,25 @@ pub fn happens(e: &PathEvent) -> String {
                 format!(" and {} closes", names(&e.closes))
             };
             format!(
-                "{} opens{closes} by a jump of {} m: the motion turns back, and goes on elsewhere",
+                "{} opens{closes} in a jump of {} m: the motion turns back and continues from another configuration",
                 names(&e.opens),
                 short(e.jump.unwrap_or(0.0))
             )
         }
         PathEventKind::Falls if !e.yields.is_empty() => {
-            format!("it falls as {} carries no more", e.yields.join(", "))
+            format!("it falls as {} can carry no more", e.yields.join(", "))
         }
         PathEventKind::Falls if e.opens.is_empty() && e.slides.is_empty() => {
-            "no forces inside the friction cones balance it beyond: it falls".into()
+            "it falls: beyond, no forces inside the friction cones balance it".into()
         }
         PathEventKind::Falls if e.opens.is_empty() => {
             format!("it falls as {} slides", names(&e.slides))
         }
         PathEventKind::Falls => format!("it falls as {} opens", names(&e.opens)),
-        PathEventKind::Slides => format!("{} slides, by dry friction", names(&e.slides)),
+        PathEventKind::Slides => format!("{} slides, with dry friction", names(&e.slides)),
         PathEventKind::Sticks => format!("{} sticks again", names(&e.slides)),
         PathEventKind::Yields => {
-            format!("{} carries all that it can and gives way", e.yields.join(", "))
+            format!("{} reaches its strength and yields", e.yields.join(", "))
         }
     }
 }
@@ -170,7 +170,7 @@ pub fn chart(file: &ResultFile) -> Option<Chart> {
     let note: Vec<String> =
         path.events.iter().map(|e| format!("{}: {}", short(e.value), happens(e))).collect();
     let chart = Chart {
-        title: "What holds it on the way".into(),
+        title: "Load factor or reaction along the path".into(),
         x: Axis::new(parameter(path), false),
         y: Axis::new(held_by(path), false),
         series: series.collect(),

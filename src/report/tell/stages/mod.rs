@@ -7,7 +7,7 @@ use crate::text::{
     options::{TextOptions, cut},
     page::{Page, Role},
 };
-use base::number::{bracketed, computed, count, point, short};
+use base::number::{count, point, rounded_down, short};
 use check::{
     proof::{
         answer::{FactorStatus, LoadFactorAnswer},
@@ -24,7 +24,7 @@ pub(super) const TELLING: Telling = Telling {
         Some(order) => asked_of_order(order.given),
         None => [
             "Does every stage of the construction stand?",
-            "Every stage is a scene of its own, with its own verdict and proof.",
+            "Every stage is a separate scene, with its own verdict and proof.",
         ],
     },
     title,
@@ -38,11 +38,11 @@ pub(super) const TELLING: Telling = Telling {
 /// Of an order in which blocks are placed.
 fn asked_of_order(given: bool) -> [&'static str; 2] {
     let question = match given {
-        true => "How many blocks have to be held at a time to build it in the order given?",
-        false => "In which order can it be built with as few blocks held at a time as can be?",
+        true => "How many blocks must be held at once to build it in the order given?",
+        false => "In which order can it be built with the fewest blocks held at once?",
     };
-    let meaning = "Every stage is a scene of its own, with its own verdict and proof. That fewer held do not do \
-         is the outcome of a search, not of a proof.";
+    let meaning = "Every stage is a separate scene, with its own verdict and proof. That fewer held blocks are \
+         not enough comes from a search, not from a proof.";
     [question, meaning]
 }
 
@@ -61,13 +61,13 @@ pub(super) fn title(file: &ResultFile) -> (String, Role) {
         return ordered(a, order);
     }
     let before = match a.stand_first {
-        0 => "none before it stands".to_string(),
+        0 => "no stage before it stands".to_string(),
         n => format!("the first {n} of {} stand", a.stages),
     };
     match a.verdict {
         Verdict::Unstable => (format!("falls at {}; {before}", a.worst), Role::Bad),
         Verdict::Conditional => {
-            (format!("stands only with a pre-stress at {}; {before}", a.worst), Role::Bad)
+            (format!("stands only with self-stress at {}; {before}", a.worst), Role::Bad)
         }
         Verdict::Undecided => (format!("undecided at {}; {before}", a.worst), Role::Unsure),
         Verdict::Stable => {
@@ -94,7 +94,7 @@ fn ordered(a: &StagesAnswer, order: &Order) -> (String, Role) {
         (Some(_), _) if a.verdict == Verdict::Stable => None,
         (Some(_), _) => Some(format!("undecided at {}", a.worst)),
         (None, 0) => Some("no order was found".into()),
-        (None, n) => Some(format!("no order was found; with fewer than {n} held there is none")),
+        (None, n) => Some(format!("no order was found; with fewer than {n} held none exists")),
     };
     if let Some(open) = open {
         return match a.hands_do() {
@@ -105,15 +105,15 @@ fn ordered(a: &StagesAnswer, order: &Order) -> (String, Role) {
     let most = a.most_held.unwrap_or_default();
     let this = if order.given { "in the order given" } else { "in the order below" };
     let with = match most {
-        0 => "with nothing held".into(),
-        n => format!("with {} held at a time", count(n, "block")),
+        0 => "with no block held".into(),
+        n => format!("with {} held at once", count(n, "block")),
     };
     let fewer = match (most, order.given) {
         (0, _) => "",
-        (n, true) if n == least => "; fewer do not",
-        (n, false) if n == least => "; no order does with fewer",
-        (_, true) => "; whether fewer do was not found out",
-        (_, false) => "; whether another does with fewer was not found out",
+        (n, true) if n == least => "; fewer are not enough",
+        (n, false) if n == least => "; no order needs fewer",
+        (_, true) => "; undecided whether fewer are enough",
+        (_, false) => "; undecided whether another order needs fewer",
     };
     let text = format!("stands at every stage {this} {with}{fewer}");
     match a.hands_do() {
@@ -126,8 +126,8 @@ fn ordered(a: &StagesAnswer, order: &Order) -> (String, Role) {
 /// What can be held, and what has to be.
 fn hands(a: &StagesAnswer, text: String) -> String {
     match (a.hands, a.hands_do()) {
-        (Some(n), Some(false)) => format!("cannot be built with {n} held at a time: {text}"),
-        (Some(n), _) => format!("undecided whether {n} held at a time are enough: {text}"),
+        (Some(n), Some(false)) => format!("cannot be built with {n} held at once: {text}"),
+        (Some(n), _) => format!("undecided whether {n} held at once are enough: {text}"),
         (None, _) => text,
     }
 }
@@ -136,9 +136,9 @@ fn hands(a: &StagesAnswer, text: String) -> String {
 fn least(l: &LeastMargin, what: &str, [sign, unit]: [&str; 2]) -> String {
     match (l.status, l.value) {
         (FactorStatus::Found, Some(v)) => {
-            format!("{what} {sign}{}{unit} at {}", computed(v), l.stage)
+            format!("{what} {sign}{}{unit} at {}", rounded_down(v), l.stage)
         }
-        (FactorStatus::Unbounded, _) => format!("{what}: no limit"),
+        (FactorStatus::Unbounded, _) => format!("{what}: without a limit"),
         _ => format!("{what} undecided at {}", l.stage),
     }
 }
@@ -147,16 +147,16 @@ fn least(l: &LeastMargin, what: &str, [sign, unit]: [&str; 2]) -> String {
 pub(super) fn why(page: &mut Page, file: &ResultFile) {
     let Some((_, result)) = said(file) else { return };
     if let Some(order) = &result.order {
-        page.paragraph(&format!("Blocks are placed one after the other, each where the scene puts it, and what is held is held without moving; every stage has its proof. How a block comes to its place between the others, and what is held while hands change from one stage to the next, is not asked. That fewer held do not do is the outcome of a search (up to {} sets of blocks), not of a proof; a mechanism goes on as long as none of the blocks that move in it is held.", order.tries));
+        page.paragraph(&format!("Blocks are placed one after the other in their final positions, and held blocks do not move; every stage has its proof. How a block reaches its place, and what is held between two stages, is not analysed. That fewer held blocks are not enough comes from a search (up to {} sets of blocks), not from a proof: a mechanism persists until one of its moving blocks is held.", order.tries));
     }
     page.paragraph(
-        "Every stage is a scene of its own, with a proof: what stands at it, under the loads that are there, with what is held. Blocks are rigid, and stand where the scene puts them: how a stage before has settled is not in it.",
+        "Every stage is a separate scene with its own proof: its blocks, its loads and what is held. Blocks are rigid and stand where the scene places them; settlements during earlier stages are not included.",
     );
     if result.list.iter().any(|s| s.margin.is_some()) {
-        page.paragraph("Margins are load factors of the live load where a stage has one, else the least tilt at which it falls.");
+        page.paragraph("Margins are load factors where a stage has live loads, otherwise the least tilt at which it falls.");
     }
     if result.list.iter().any(|s| !s.least_forces.is_empty()) {
-        page.paragraph("What is held is held at least with the forces named, each for itself: with less, no forces between the blocks balance it and all that leans on it.");
+        page.paragraph("The holding forces listed are minima, each found by itself: with less, no contact forces balance the held block and all that leans on it.");
     }
 }
 
@@ -201,7 +201,7 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
 fn line(s: &StageResult) -> String {
     let verdict = match s.stands() {
         Verdict::Stable => "stands",
-        Verdict::Conditional => "stands only with a pre-stress",
+        Verdict::Conditional => "stands only with self-stress",
         Verdict::Unstable => "falls",
         Verdict::Undecided => "undecided",
     };
@@ -223,14 +223,14 @@ fn margin(l: &LoadFactorAnswer, what: &str, unit: &str) -> String {
         (FactorStatus::Found, Some(v), Some(low), Some(high))
             if low <= v && v <= high && high - low < 1e-5 * v.abs() =>
         {
-            format!("{what} {}{unit}", bracketed(v, low, high))
+            format!("{what} {}{unit}", rounded_down(v))
         }
-        (FactorStatus::Found, Some(v), ..) => format!("{what} {}{unit}", computed(v)),
-        (FactorStatus::Unbounded, ..) => "no limit to its margin".into(),
-        (FactorStatus::NotAtRest, ..) => "not at rest with dry friction".into(),
+        (FactorStatus::Found, Some(v), ..) => format!("{what} {}{unit}", rounded_down(v)),
+        (FactorStatus::Unbounded, ..) => "margin without a limit".into(),
+        (FactorStatus::NotAtRest, ..) => "moves under the dead load with dry friction".into(),
         (FactorStatus::Impossible, ..) => "falls whatever the load".into(),
         (_, _, Some(low), _) if low > 0.0 => {
-            format!("margin undecided, at rest up to {}{unit}", computed(low))
+            format!("margin undecided, stands up to {}{unit} at least", rounded_down(low))
         }
         _ => "margin undecided".into(),
     }

@@ -16,7 +16,7 @@ use check::{
 };
 
 fn said(file: &ResultFile) -> Result<&StagesResult, ReportError> {
-    file.stages.as_ref().ok_or_else(|| ReportError::new("this is no result of `stages`"))
+    file.stages.as_ref().ok_or_else(|| ReportError::new("this is not a result of `stages`"))
 }
 
 /// The stages, a row each: name, verdict, least equilibrium error (lower and upper end, g), blocks, held
@@ -60,7 +60,7 @@ pub fn csv(file: &ResultFile) -> Result<String, ReportError> {
         row.extend(ends(s.load_factor()));
         row.extend(ends(s.tilt_deg()));
         let forces = s.least_forces.iter().map(|h| {
-            let value = h.least.value.map_or("open".to_string(), |v| v.to_string());
+            let value = h.least.value.map_or("undecided".to_string(), |v| v.to_string());
             format!("{} along {:?}: {value}", h.block, h.direction)
         });
         row.push(forces.collect::<Vec<_>>().join("; ").into());

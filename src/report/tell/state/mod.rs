@@ -1,4 +1,4 @@
-//! States of joints that yield for people.
+//! States of elastic joints for people.
 
 mod table;
 
@@ -23,8 +23,8 @@ pub(super) const TELLING: Telling = Telling {
     asked: |_| {
         [
             "Which forces and displacements follow from the stiffness of its joints?",
-            "Computed from the stiffnesses listed, with friction followed along the load; that the \
-             forces are admissible is proved.",
+            "Computed from the stiffnesses listed, with friction followed along the load path. That \
+             the forces are admissible is proved.",
         ]
     },
     title,
@@ -48,11 +48,12 @@ pub(super) fn title(file: &ResultFile) -> (String, Role) {
     let Some(a) = file.answer.state() else { return ("undecided".into(), Role::Unsure) };
     let Some(g) = &a.greatest else {
         return match a.verdict {
-            Verdict::Unstable => ("falls: there is no state at rest".into(), Role::Bad),
-            Verdict::Conditional => {
-                ("stands only with a pre-stress: no state at rest was found".into(), Role::Bad)
-            }
-            _ => ("undecided: no state was found".into(), Role::Unsure),
+            Verdict::Unstable => ("falls: no equilibrium exists".into(), Role::Bad),
+            Verdict::Conditional => (
+                "stands only with self-stress: no equilibrium with elastic joints was found".into(),
+                Role::Bad,
+            ),
+            _ => ("undecided: no equilibrium was found".into(), Role::Unsure),
         };
     };
     let rest = format!(
@@ -64,7 +65,10 @@ pub(super) fn title(file: &ResultFile) -> (String, Role) {
         None => (rest, Role::Good),
         Some(l) => match (l.end, l.value) {
             (PathEnd::Unbounded, _) => (
-                format!("{rest}; followed up to λ = {}, without an end", fixed(l.reached, 6)),
+                format!(
+                    "{rest}; followed up to λ = {} without reaching a limit",
+                    fixed(l.reached, 6)
+                ),
                 Role::Good,
             ),
             (_, Some(v)) => (format!("λ = {} along the path; {rest}", fixed(v, 6)), Role::Value),
@@ -81,21 +85,21 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
     let Some(a) = file.answer.state() else { return };
     if a.greatest.is_none() {
         page.paragraph(match a.verdict {
-            Verdict::Undecided => "Forces that balance the dead load may exist, but no displacements were found at which the joints' own forces do.",
-            _ => "The dead load is not balanced by what the joints can carry, however stiff they are.",
+            Verdict::Undecided => "Forces that balance the dead load may exist, but no displacements were found at which the elastic joints develop them.",
+            _ => "The joints cannot carry the dead load, however stiff they are.",
         });
         return;
     }
     page.paragraph(match a.quadrature {
-        Quadrature::Area => "Joints yield as springs that cannot pull, over the part of them that is pressed; what sticks is stretched, what slides follows Coulomb's law. Displacements are small: second-order effects are left out.",
-        Quadrature::Corners => "Joints yield at their corners alone, as in the state under dry friction of the other questions. Displacements are small: second-order effects are left out.",
+        Quadrature::Area => "Joints are elastic and take no tension: only their compressed part acts. Where they stick they shear elastically, where they slide they follow Coulomb's law. Displacements are small: second-order effects are neglected.",
+        Quadrature::Corners => "Joints are elastic at their corners only, as for dry friction in the other questions. Displacements are small: second-order effects are neglected.",
     });
     if let Question::State(asked) = &file.question
         && asked.quadrature != a.quadrature
     {
-        page.paragraph("It was asked over the area of the joints. There no state was found, or the path did not end: what presses shrinks to nothing. Against turning joints that yield at their corners are up to three times as stiff.");
+        page.paragraph("Joints elastic over their area were asked for, but no equilibrium was found, or the path did not end, because the compressed part shrinks to nothing. Joints elastic at their corners are up to three times as stiff in rotation.");
     }
-    page.paragraph("Forces are those of the displacements, and balance every block inside the friction cones: that it stands is proved by them. That it is this state is computed, from the stiffness of its joints, and rests on the three conditions below.");
+    page.paragraph("The forces follow from the displacements and balance every block inside the friction cones, which proves that it stands. That the structure takes this state is computed from the stiffness of its joints and rests on the three conditions below.");
     let Some(l) = &a.load_factor else { return };
     page.paragraph(&path(l));
 }
@@ -103,15 +107,15 @@ pub(super) fn why(page: &mut Page, file: &ResultFile) {
 fn path(l: &PathFactor) -> String {
     let bound = match l.associative.value {
         Some(v) => format!("the bound by limit analysis is {}", fixed(v, 6)),
-        None => "limit analysis knows no bound".into(),
+        None => "limit analysis gives no bound".into(),
     };
     match l.end {
         PathEnd::Bound if !l.slides => format!(
-            "Nothing slides on the way, and states were found up to a thousandth below the bound: the load factor of the path is the proved bound, {}.",
+            "No joint slides along the path, and equilibrium was found up to a thousandth below the bound: the load factor of the path is the proved bound, {}.",
             l.associative.value.map_or(String::new(), |v| fixed(v, 6))
         ),
         PathEnd::Bound => format!(
-            "States were found up to λ = {} although joints slide; {bound}.",
+            "Equilibrium was found up to λ = {} although joints slide; {bound}.",
             fixed(l.reached, 6)
         ),
         PathEnd::NoBalance if l.associative.value.is_some_and(|v| l.reached > NEAR * v) => format!(
@@ -119,10 +123,10 @@ fn path(l: &PathFactor) -> String {
             fixed(l.reached, 6)
         ),
         PathEnd::NoBalance => format!(
-            "Beyond λ = {} no displacements balance the loads (computed, not proved); {bound}, which joints that slide do not reach.",
+            "Beyond λ = {} no displacements balance the loads (computed, not proved); {bound}, which is not reached because joints slide.",
             fixed(l.reached, 6)
         ),
-        PathEnd::Unbounded => "The live load has no limit; the path was followed to ten times the load factor at which live and dead load weigh the same.".into(),
+        PathEnd::Unbounded => "The live load has no limit; the path was followed to ten times the load factor at which live and dead loads are equal.".into(),
         PathEnd::Open | PathEnd::None => format!("The path was not followed to its end; {bound}."),
     }
 }
@@ -158,14 +162,14 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
             let least = ROUNDING * size(d.displacement);
             let turn = d.rotation.map(|r| if r.abs() > least { r * 1e3 } else { 0.0 });
             format!(
-                "{}: {} m, turned by {} mrad",
+                "{}: {} m, rotated by {} mrad",
                 base::plain::cell(&d.block),
                 point(d.displacement),
                 point(turn)
             )
         })
         .collect();
-    page.row("moved", cut(&blocks, LISTED, options));
+    page.row("displaced", cut(&blocks, LISTED, options));
     let joints: Vec<String> = a.joints.iter().map(joint).collect();
     page.row("joints", cut(&joints, LISTED, options));
     if !a.frequencies.is_empty() {
@@ -174,7 +178,8 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
     } else if a.greatest.is_some() {
         page.row(
             "frequencies",
-            ["not found: the structure is too large, or they did not settle".to_string()],
+            ["not found: the structure is too large, or the computation did not converge"
+                .to_string()],
         );
     }
     if let Some(c) = &a.control {
@@ -235,15 +240,15 @@ pub(crate) fn event(e: &Event) -> String {
     let what = match e.kind {
         EventKind::Opens => "opens at an edge",
         EventKind::Closes => "closes",
-        EventKind::Parts => "parts",
+        EventKind::Parts => "separates",
         EventKind::Touches => "touches again",
         EventKind::Slips => "slides in part",
         EventKind::Slides => "slides",
         EventKind::Sticks => "sticks",
         EventKind::Slackens => "goes slack",
-        EventKind::Tightens => "carries",
+        EventKind::Tightens => "goes taut",
         EventKind::Yields => "yields",
-        EventKind::Holds => "carries less than its strength",
+        EventKind::Holds => "unloads below its strength",
     };
     format!("λ = {}: {name} {what}", fixed(e.load_factor, 6))
 }

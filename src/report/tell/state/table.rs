@@ -1,4 +1,4 @@
-//! States of joints that yield as tables and charts.
+//! States of elastic joints as tables and charts.
 
 use crate::{
     ReportError,
@@ -12,7 +12,7 @@ use check::proof::{
 };
 
 fn said(file: &ResultFile) -> Result<&StateAnswer, ReportError> {
-    file.answer.state().ok_or_else(|| ReportError::new("this is no result of one"))
+    file.answer.state().ok_or_else(|| ReportError::new("this is not a result of `state`"))
 }
 
 /// The curve where there is one, a row a point: load factor, displacement of the control point (m)
@@ -93,7 +93,7 @@ fn line(curve: &[CurvePoint]) -> Option<Line> {
 /// A curve is drawn up to this share of its greatest load factor: beyond, ways grow a hundredfold.
 const SHOWN: f64 = 0.9;
 
-const X: &str = "way of the control point from the dead load on, m";
+const X: &str = "displacement of the control point beyond the dead load, m";
 const Y: &str = "load factor";
 
 /// The curve as a chart of a page.
@@ -101,12 +101,12 @@ pub fn chart(file: &ResultFile) -> Option<Chart> {
     let a = file.answer.state()?;
     let (points, _) = line(&a.curve)?;
     let hint = |x: f64, y: f64| format!("{} m, λ = {}", short(x), short(y));
-    let states = Series::line("states with stiffness", &points, hint);
+    let states = Series::line("with elastic joints (computed)", &points, hint);
     // A level line from the first point to the last.
     let ends = points.first().map(|p| p.0).into_iter().chain(points.last().map(|p| p.0));
     let bound = a.load_factor.and_then(|l| l.associative.value).map(|bound| {
         let level: Vec<(f64, f64)> = ends.map(|x| (x, bound)).collect();
-        Series::line("proved bound by limit analysis", &level, |_, y| format!("λ ≤ {}", short(y)))
+        Series::line("bound by limit analysis (proved)", &level, |_, y| format!("λ ≤ {}", short(y)))
     });
     let at = |load_factor: f64| points.iter().find(|p| p.1 == load_factor).map(|p| p.0);
     let chart = Chart {
@@ -115,7 +115,7 @@ pub fn chart(file: &ResultFile) -> Option<Chart> {
         y: Axis::new(Y, false),
         series: std::iter::once(states).chain(bound).collect(),
         events: a.events.iter().filter_map(|e| at(e.load_factor)).collect(),
-        note: "Upright: a joint opens or slides, a member goes slack or yields.".into(),
+        note: "Vertical lines: a joint opens or slides, a member goes slack or yields.".into(),
         ..Chart::default()
     };
     chart.of_two()

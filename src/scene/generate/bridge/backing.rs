@@ -148,8 +148,8 @@ impl Masonry {
             return match backing.behind {
                 Some(_) => Err(place.error(
                     "behind",
-                    "is how far masonry reaches behind the springings, and this backing is fill",
-                    "give \"masonry\" the name of its material, or leave behind out",
+                    "applies to backing as masonry, and this backing is fill",
+                    "give \"masonry\" the name of its material, or leave \"behind\" out",
                 )),
                 None => Ok(None),
             };
@@ -157,8 +157,8 @@ impl Masonry {
         if plan.piers.is_empty() && backing.behind.is_none() {
             return Err(place.error(
                 "masonry",
-                "there is no pier for it to stand on",
-                "give \"behind\", how far it reaches behind the springings, m",
+                "there is no pier for the masonry to stand on",
+                "give \"behind\": how far it extends behind the springings, in m",
             ));
         }
         let height = backing.height;
@@ -265,7 +265,7 @@ impl Haunching {
             return Err(place().error(
                 "height",
                 format!(
-                    "as masonry it must lie between {foot} and {crown} m, the lowest and the highest point of the extrados beside it, got {height}"
+                    "must lie between {foot} and {crown} m for masonry (lowest and highest point of the extrados beside it), got {height}"
                 ),
                 "metres over the springings",
             ));

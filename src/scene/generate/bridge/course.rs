@@ -65,14 +65,14 @@ fn pier(
         return Err(place.error(
             "width",
             format!(
-                "the rings beside it reach {} m and {} m over it, more than its {} m",
+                "the rings beside it cover {} m and {} m of its {} m",
                 reach[0][0], reach[1][0], pier.width
             ),
             "make it wider, or the rings thinner",
         ));
     }
     if reach[0][1] != reach[1][1] && reach[0][0] + reach[1][0] == pier.width {
-        return Err(place.error("width", "its top would be a step", "make it wider"));
+        return Err(place.error("width", "its top would have a step", "make it wider"));
     }
     let (middle, right) = (edge + 0.5 * pier.width, edge + pier.width);
     let (low, below) = (-pier.height, -pier.height - 0.5 * pier.width);
@@ -96,12 +96,12 @@ impl Plan {
             return Err(place.error(
                 "piers",
                 format!(
-                    "{} spans have {} piers between them, got {}",
+                    "must have one pier fewer than spans: {} spans need {}, got {}",
                     bridge.spans.len(),
                     bridge.spans.len() - 1,
                     bridge.piers.len()
                 ),
-                "one pier between each two spans",
+                "give one pier between each two spans",
             ));
         }
         let counts: Option<usize> = bridge

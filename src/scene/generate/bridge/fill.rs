@@ -65,7 +65,7 @@ pub(super) fn check(
         Err(place.error(field, format!("must be at least 0, got {value}"), hint))
     };
     at_least("cover", fill.cover, "a length in m")?;
-    let hint = "metres to either side per metre of depth: 0.5";
+    let hint = "metres to either side per metre of depth, such as 0.5";
     at_least("dispersal", fill.dispersal.unwrap_or(0.0), hint)?;
     at_least("parapets", fill.parapets, "in N per metre of the bridge")?;
     at_least("passive", fill.passive.unwrap_or(0.0), "half of tan²(45° + φ/2): 1.5 for 30°")?;
@@ -77,7 +77,7 @@ pub(super) fn check(
         if given.is_some() && angle.is_some() {
             return Err(place.error(
                 field,
-                format!("excludes {other}, which it would give"),
+                format!("cannot be combined with {other}"),
                 "leave one of them out",
             ));
         }
@@ -98,7 +98,7 @@ pub(super) fn check(
                 return Err(place.error(
                     "unit_weight",
                     "is missing",
-                    "its weight per volume in N/m³ as fill, or \"masonry\", the name of its material",
+                    "give its weight per volume in N/m³ as fill, or \"masonry\", the name of its material",
                 ));
             }
             (Some(name), _) => {
@@ -106,7 +106,9 @@ pub(super) fn check(
                 if let Some((key, _)) = given.into_iter().find(|(_, value)| value.is_some()) {
                     return Err(place.error(
                         key,
-                        format!("is of backing as fill, and this is masonry of {name:?}"),
+                        format!(
+                            "applies to backing as fill, and this backing is masonry of {name:?}"
+                        ),
                         format!("leave {key} out, or masonry"),
                     ));
                 }
@@ -116,7 +118,7 @@ pub(super) fn check(
             return Err(place.error(
                 "passive",
                 format!("must be at least 0, got {k}"),
-                "as that of the fill, greater where the backing is stiff; leave it out for that of the fill",
+                "leave it out to use that of the fill; give a greater one where the backing is stiff",
             ));
         }
     }
@@ -128,8 +130,11 @@ pub(super) fn check(
     if let Some([x, z]) = low {
         return Err(place.error(
             "cover",
-            format!("the road is {} m high at x = {x}, what it lies on {z} m", road.height(x)),
-            "a thicker cover, a smaller gradient, or lower backing",
+            format!(
+                "the road is {} m high at x = {x}, below the structure under it ({z} m)",
+                road.height(x)
+            ),
+            "use a thicker cover, a smaller gradient or lower backing",
         ));
     }
     Ok(())

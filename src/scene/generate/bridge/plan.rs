@@ -83,8 +83,8 @@ impl SpanPlan {
         if let Some((field, _)) = given.into_iter().find(|(_, given)| *given) {
             return Err(place.error(
                 field,
-                "is that of an intrados by dimensions, which its points already give",
-                format!("leave {field} out, or intrados"),
+                "cannot be combined with \"intrados\": its points already define the shape",
+                format!("leave \"{field}\" or \"intrados\" out"),
             ));
         }
         place.count("voussoirs", span.voussoirs, 2)?;

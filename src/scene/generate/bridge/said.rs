@@ -8,7 +8,7 @@ use base::number::short;
 pub fn said(bridge: &Bridge) -> Vec<String> {
     let Some(fill) = &bridge.fill else {
         return vec![
-            "no fill: no weight on the rings, loads press where they stand, nothing resists".into(),
+            "no fill: no weight on the rings, no spreading of loads, no passive pressure".into(),
         ];
     };
     let mut lines = vec![format!(
@@ -19,7 +19,7 @@ pub fn said(bridge: &Bridge) -> Vec<String> {
     )];
     let over = match fill.distribution {
         Distribution::Even => "evenly",
-        Distribution::Boussinesq => "as in an elastic half-space (Boussinesq), cut off there",
+        Distribution::Boussinesq => "as in an elastic half-space (Boussinesq), truncated there",
     };
     lines.push(match (dispersal(fill), fill.dispersal_deg) {
         (0.0, _) => "loads do not spread in the fill (dispersal 0)".into(),
@@ -31,7 +31,7 @@ pub fn said(bridge: &Bridge) -> Vec<String> {
     });
     lines.push(match resistance(fill) {
         k if k > 0.0 => {
-            format!("passive pressure up to {} times the unit weight times the depth", short(k))
+            format!("passive pressure up to {} × unit weight × depth", short(k))
         }
         _ => "no passive pressure (neither passive nor friction_deg)".into(),
     });
@@ -48,7 +48,7 @@ pub fn said(bridge: &Bridge) -> Vec<String> {
             }
         ),
         Some(b) => format!(
-            "backing of {} N/m³ up to {} m over the springings, passive pressure up to {} times; as fill, not as masonry",
+            "backing of {} N/m³ up to {} m over the springings, as fill (not masonry), with passive pressure up to {} × unit weight × depth",
             short(b.unit_weight.unwrap_or(fill.unit_weight)),
             short(b.height),
             short(b.passive.unwrap_or_else(|| resistance(fill)))

@@ -55,7 +55,7 @@ fn what_has_no_meaning_is_refused_at_its_place() {
         (
             json!({"arch": {"radius": 1, "span": 2, "rise": 1, "thickness": 0.1, "depth": 1, "voussoirs": 9}}),
             "arch.radius",
-            "excludes",
+            "cannot be combined",
         ),
         (
             json!({"arch": {"span": 2, "thickness": 0.1, "depth": 1, "voussoirs": 9}}),

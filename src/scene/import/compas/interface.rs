@@ -190,7 +190,7 @@ fn say(odd: &Odd, raw: &mut Raw) {
             "without a definite plane (no frame, or an area below {least:e} × diameter²), left out"
         ),
     );
-    report(FindingCode::LeftOut, &odd.twice, "that are in the file twice, taken once");
+    report(FindingCode::LeftOut, &odd.twice, "that are in the file twice, used once");
     report(
         FindingCode::Mended,
         &odd.skew,

@@ -23,7 +23,7 @@ pub(super) fn read(at: &Cursor, id: String) -> Result<Solid, InputError> {
     if !(at.has("vertex") && at.has("face")) {
         return Err(at
             .error(format!("expected a mesh with \"vertex\" and \"face\", got {}", describe(at.value())))
-            .hint("blocks have to be meshes or polyhedra; convert boxes, breps and other shapes to meshes before the export"));
+            .hint("blocks must be meshes or polyhedra; convert boxes, breps and other shapes to meshes before the export"));
     }
     let defaults = ["default_vertex_attributes", "dva"].into_iter().find_map(|k| at.get(k));
     let mut solid = Solid { id, ..Solid::default() };
@@ -90,7 +90,7 @@ fn face(at: &Cursor, lookup: impl Fn(&Value) -> Option<usize>) -> Result<Vec<usi
     let find = |c: &Cursor| {
         lookup(c.value()).ok_or_else(|| {
             c.error(format!("the mesh has no vertex {}", describe(c.value())))
-                .hint("every corner has to be a key of \"vertex\"")
+                .hint("every corner must be a key of \"vertex\"")
         })
     };
     corners.iter().map(find).collect()

@@ -35,7 +35,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw, InputError> {
         let message = message.split(" at line ").next().unwrap_or_default();
         let hint = match e.is_eof() {
             true => "the file is cut off; export it again",
-            false => "the file is damaged or no JSON; NaN and Infinity, which Python writes, are no JSON either",
+            false => "the file is damaged or not JSON; NaN and Infinity, which Python writes, are not JSON either",
         };
         let position = (e.line() > 0).then(|| (e.line(), e.column()));
         InputError { position, ..InputError::at(JsonPath::root(), message).hint(hint) }
@@ -45,8 +45,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw, InputError> {
         value.get("format").and_then(Value::as_str).filter(|f| f.starts_with("voussoir"))
     {
         return Err(root
-            .error(format!("a {format:?} file, nothing to import"))
-            .hint("use the file as it is"));
+            .error(format!("a {format:?} file needs no import"))
+            .hint("use it as it is"));
     }
     let data = root.open();
     if data.has("elements") {

@@ -98,7 +98,7 @@ fn stl_errors_name_the_line_or_the_triangle() {
     let binary = stl_binary("box");
     assert!(
         error("x.stl", &binary[..600])
-            .contains("the header promises 12 triangles (684 bytes), the file has 600 bytes")
+            .contains("the header announces 12 triangles (684 bytes), the file has 600 bytes")
     );
     let mut huge = binary.clone();
     huge[80..84].copy_from_slice(&u32::MAX.to_le_bytes());
@@ -193,7 +193,7 @@ fn json_errors_name_the_line_or_the_path() {
     assert!(error("x.json", "{\"a\": 1}").contains("expected a mesh with \"vertex\" and \"face\""));
     assert!(
         error("x.json", "{\"format\": \"voussoir-scene/1\", \"blocks\": []}")
-            .contains("use the file as it is")
+            .contains("use it as it is")
     );
     let skew = json!({"elements": {"a": {"geometry": compas_mesh([0.0; 3]), "transformation": {"matrix": [[1, 0], [0, 1]]}}}});
     assert!(
@@ -208,7 +208,9 @@ fn files_that_are_not_there_or_of_no_format_are_said() {
         .expect_err("not there")
         .to_string();
     assert!(text.starts_with("no/such.obj: cannot be read") && text.contains("hint:"), "{text}");
-    assert!(error("notes.txt", "hello\n").contains("neither the extension nor the content"));
+    assert!(
+        error("notes.txt", "hello\n").contains("unknown from both the extension and the content")
+    );
 }
 
 /// A good file of every format.

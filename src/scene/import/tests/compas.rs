@@ -197,7 +197,7 @@ fn stored_interfaces_that_make_no_sense_are_left_out_or_mended_and_counted() {
         &["without a definite plane", "left out: 3 ", "(3 corners)", "(0 corners)", "(1 corners)"],
     );
     finding(&imported, FindingCode::Mended, &["given the polygon's normal: 1 ", "90.0°"]);
-    finding(&imported, FindingCode::LeftOut, &["in the file twice, taken once: 1 "]);
+    finding(&imported, FindingCode::LeftOut, &["in the file twice, used once: 1 "]);
     // Node 9 comes first, so its copy of the seam is the one that stays; then the skew one, the
     // bare one and the edge of two points.
     let kept: Vec<_> = imported

@@ -58,11 +58,7 @@ fn supports_by_name_and_by_height_add_up() {
     let none = with(ImportOptions { support_below: Some(0.0), ..ImportOptions::default() })
         .expect("below means below");
     assert!(supports(&none).is_empty());
-    finding(
-        &none,
-        FindingCode::Missing,
-        &["no block reaches below 0 m", "lowest corner is at 0 m"],
-    );
+    finding(&none, FindingCode::Missing, &["no block lies below 0 m", "lowest corner is at 0 m"]);
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! Scenes of joints that yield with closed forms.
+//! Scenes of elastic joints with closed forms.
 
 use base::error::{InputError, JsonPath};
 use check::verdict::Rate;

@@ -1,4 +1,4 @@
-//! Joints that yield, on scenes with closed forms: the error of the state with stiffness, of springs
+//! Elastic joints, on scenes with closed forms: the error of the state with stiffness, of springs
 //! and dampers relaxed to rest (the penalty method), and of the simulation, against run time.
 //!
 //! The simulation knows no stiffness: it is asked for load factors alone.

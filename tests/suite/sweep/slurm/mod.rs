@@ -195,18 +195,18 @@ fn what_slurm_cannot_do_is_said_before_anything_is_submitted() {
         "no partition \"new\"; hint: this cluster has main, old",
     );
     fake.refused(&slurm(&["--partition", "old"]), &[], "starts no jobs");
-    fake.refused(&slurm(&["--partition", "a b"]), &[], "not one word");
+    fake.refused(&slurm(&["--partition", "a b"]), &[], "not a single word");
     fake.refused(&slurm(&["--sbatch-arg=account"]), &[], "not an option");
     fake.refused(&slurm(&["--threads", "2"]), &[], "cannot be used with");
     fake.refused(&["sweep", "plan.json", "--tasks", "2"], &[], "--slurm");
-    fake.refused(&["sweep", "--attach", "out.jsonl"], &[], "nothing was submitted for out.jsonl");
+    fake.refused(&["sweep", "--attach", "out.jsonl"], &[], "no job was submitted for out.jsonl");
     fake.refused(&["sweep", "plan.json", "--slurm", "-o", "nowhere/out.jsonl"], &[], "nowhere");
-    fake.refused(&["sweep", "plan.json", "--slurm", "-o", "scene.json"], &[], "this file is read");
+    fake.refused(&["sweep", "plan.json", "--slurm", "-o", "scene.json"], &[], "would overwrite");
     std::fs::copy(fake.at().join("scene.json"), fake.at().join("other.json")).unwrap();
     fake.refused(
         &["sweep", "plan.json", "--slurm", "-o", "other.json"],
         &[],
-        "not the beginning of a file of rows",
+        "not the header of a file of rows",
     );
     fake.refused(&["sweep", "task", "out.jsonl.slurm", "--shard", "1/2"], &[], "finds no sweep");
     fake.refused(&["sweep", "status", "out.jsonl"], &[], "cannot be read");
@@ -221,7 +221,7 @@ fn what_slurm_cannot_do_is_said_before_anything_is_submitted() {
     if voussoir::sweep::slurm::is_shared(&mount, &["far".to_string()], "here") {
         crate::skipped(&format!("in part: {} is a shared file system", mount.kind));
     } else {
-        fake.refused(&slurm(&[]), &[("FAKE_HOST", "far")], "which nodes such as far do not see");
+        fake.refused(&slurm(&[]), &[("FAKE_HOST", "far")], "which nodes such as far cannot reach");
         fake.expect(0, &slurm(&["--shared", "-q"]), &[("FAKE_HOST", "far")]);
         assert_eq!(fake.submitted(), ["1-2"]);
         fs::remove_file(fake.at().join("submitted")).unwrap();
@@ -232,7 +232,7 @@ fn what_slurm_cannot_do_is_said_before_anything_is_submitted() {
     fake.refused(
         &slurm(&[]),
         &[("FAKE_REFUSAL", "Invalid account")],
-        "sbatch refuses: Invalid account",
+        "sbatch reports an error: Invalid account",
     );
     assert!(
         !fake.at().join("out.jsonl").exists(),
@@ -243,7 +243,7 @@ fn what_slurm_cannot_do_is_said_before_anything_is_submitted() {
     fake.refused(
         &slurm(&["--restart"]),
         &[("FAKE_STATE", "1|RUNNING|None")],
-        "job 17 is still working",
+        "job 17 is still computing",
     );
     fs::write(fake.at().join("out.jsonl.slurm/job.json"), "{").unwrap();
     fake.refused(&slurm(&[]), &[], "not the record of a job");

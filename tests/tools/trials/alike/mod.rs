@@ -357,7 +357,7 @@ fn said(question: usize, answer: &Answer) -> Said {
     use check::verdict::Verdict::{Conditional, Stable, Undecided, Unstable};
     match answer.verdict() {
         Some(Stable) => found("stands", Vec::new()),
-        Some(Conditional) => found("pre-stress", Vec::new()),
+        Some(Conditional) => found("self-stress", Vec::new()),
         Some(Unstable) => found("falls", Vec::new()),
         Some(Undecided) | None => open,
     }

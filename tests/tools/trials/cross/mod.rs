@@ -169,7 +169,7 @@ pub struct CrossCount {
     pub scenes: usize,
     /// Stand.
     pub stable: usize,
-    /// Stand only with a pre-stress.
+    /// Stand only with self-stress.
     pub conditional: usize,
     /// Fall.
     pub unstable: usize,

@@ -45,7 +45,7 @@ pub fn text(list: &[Crossed], seed: u64, verbose: bool, layout: Layout) -> Page 
 fn sums(c: &CrossCount) -> Vec<String> {
     let mut lines = vec![
         format!(
-            "{} scenes: {} stand, {} with a pre-stress, {} fall, {} undecided, {} refused; {} bounds on load factors, {} values with dry friction",
+            "{} scenes: {} stand, {} with self-stress, {} fall, {} undecided, {} refused; {} bounds on load factors, {} values with dry friction",
             c.scenes, c.stable, c.conditional, c.unstable, c.undecided, c.refused, c.bounds, c.dry
         ),
         format!(

@@ -152,7 +152,7 @@ impl Asked<'_> {
             if verdict == Verdict::Conditional && dry > none {
                 self.wrong(
                     Variation::Alone,
-                    format!("needs a pre-stress under its dead load, and stands up to {dry}"),
+                    format!("needs self-stress under its dead load, and stands up to {dry}"),
                 );
             }
         }

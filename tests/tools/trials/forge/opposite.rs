@@ -128,7 +128,7 @@ fn stands(honest: &Honest, random: &mut Random) -> Vec<Option<Forgery>> {
         .collect()
 }
 
-/// That it stands only with a pre-stress: forces without one that leave a motion, which is claimed
+/// That it stands only with self-stress: forces without one that leave a motion, which is claimed
 /// as well.
 fn needs_a_pre_stress(honest: &Honest, random: &mut Random) -> Vec<Option<Forgery>> {
     let model = &honest.model;
@@ -165,7 +165,7 @@ fn needs_a_pre_stress(honest: &Honest, random: &mut Random) -> Vec<Option<Forger
             let draft = claim(honest, "conditional").forces(honest, &at("forces"), good);
             let draft =
                 draft.forces(honest, &at("base"), &base).rates(honest, &at("rates"), &rates);
-            draft.done(honest, "needs a pre-stress", what)
+            draft.done(honest, "needs self-stress", what)
         })
         .collect()
 }

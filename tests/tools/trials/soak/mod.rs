@@ -226,7 +226,7 @@ pub struct SoakCount {
     pub scenes: usize,
     /// Stand.
     pub stable: usize,
-    /// Stand only with a pre-stress.
+    /// Stand only with self-stress.
     pub conditional: usize,
     /// Fall.
     pub unstable: usize,

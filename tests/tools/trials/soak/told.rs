@@ -52,7 +52,7 @@ pub fn text(list: &[Soaked], seed: u64, verbose: bool, layout: Layout) -> Page {
 
 fn sums(c: &SoakCount) -> Vec<String> {
     let verdicts = format!(
-        "{} scenes: {} stand, {} with a pre-stress, {} fall, {} undecided ({} unproved), {} refused, {} wrong",
+        "{} scenes: {} stand, {} with self-stress, {} fall, {} undecided ({} unproved), {} refused, {} wrong",
         c.scenes, c.stable, c.conditional, c.unstable, c.undecided, c.unproved, c.refused, c.wrong
     );
     if c.simulated == 0 {
