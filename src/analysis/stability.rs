@@ -51,9 +51,13 @@ pub struct Stability {
     pub reached: bool,
 }
 
-/// The packing without the grains that nothing holds, and their ids.
+/// The packing without the grains that nothing holds, and their ids; all of it where nothing holds
+/// any, for then it is the packing that falls.
 pub fn held(model: &Model) -> (Model, Vec<String>) {
-    let loose: Vec<usize> = floating(model).into_iter().flatten().collect();
+    let mut loose: Vec<usize> = floating(model).into_iter().flatten().collect();
+    if loose.len() == model.assembly.free().count() {
+        loose.clear();
+    }
     (if loose.is_empty() { model.clone() } else { model.without(&loose) }, model.ids(&loose))
 }
 

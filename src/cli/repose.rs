@@ -25,7 +25,7 @@ use voussoir::{
         text::{self, TextOptions},
         view::View,
     },
-    verdict::Forces,
+    verdict::{Forces, Verdict},
 };
 
 /// What --question repose takes in place of a scene.
@@ -82,8 +82,11 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
     (file.timings.check, file.timings.solve) =
         (proof.run.timings.check, (solve - proof.run.timings.check).max(0.0));
     file.doubt = doubt(&answer, &session.model, &session.control());
-    if let Some(forces) = &forces {
-        file.fabric = args.fabric.then(|| fabric(model, forces));
+    if let Some((forces, whose)) = &forces {
+        file.fabric = fabric(model, forces).filter(|_| args.fabric);
+        let none = "no contact carries a force: what was found does not balance the packing";
+        let whose = if file.fabric.is_some() { whose } else { none };
+        file.fabric_forces = args.fabric.then(|| whose.to_string());
         if let Some(csv) = &csv {
             let table = contacts::csv(model, forces).map_err(|e| anyhow::anyhow!("{e}"))?;
             csv.write(&table)?;
@@ -126,16 +129,22 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
     })
 }
 
-/// Forces of the packing when level: those that the weights produce where dry friction was
-/// computed, else some that balance.
-fn level(session: &Session, model: &Model) -> anyhow::Result<Forces> {
+/// Forces of the packing when level, and whose they are: those that the weights produce where dry
+/// friction was computed, else some that balance.
+fn level(session: &Session, model: &Model) -> anyhow::Result<(Forces, &'static str)> {
     let question = AssessOptions { law: session.law() }.into();
-    match ask(&question, &session.scene, model, &session.control())
-        .map_err(|e| session.refuse(e))?
-    {
-        Answer::Assess(a) => {
-            Ok(a.state.as_ref().map_or_else(|| a.forces.clone(), |s| s.forces.clone()))
-        }
-        _ => bail!("there is no verdict"),
-    }
+    let answer =
+        ask(&question, &session.scene, model, &session.control()).map_err(|e| session.refuse(e))?;
+    let Answer::Assess(a) = answer else { bail!("there is no verdict") };
+    Ok(match (&a.state, a.verdict) {
+        (Some(state), _) => (
+            state.forces.clone(),
+            "those that the weights produce with dry friction (computed, not proved)",
+        ),
+        (None, Verdict::Stable | Verdict::Conditional) => (
+            a.forces.clone(),
+            "one of many systems that balance: others have another coordination and mobilisation",
+        ),
+        (None, _) => (Forces::new(), ""),
+    })
 }

@@ -8,6 +8,7 @@ use base::{error::Finding, number::short};
 use check::proof::packing::Versions;
 use scene::Protocol;
 use serde::{Deserialize, Serialize};
+use sweep::Mean;
 
 /// The version of the format.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -44,6 +45,10 @@ pub struct ReposeFile {
     /// Least and greatest angle over the seeds, degrees; with `angle_deg`.
     #[serde(default)]
     pub spread_deg: Option<[f64; 2]>,
+    /// Standard error and 95 % interval of `angle_deg`, degrees: over the seeds; of one heap from the
+    /// fit of its surface, which other seeds may leave.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub known_deg: Option<Mean>,
     /// What drum, hopper and shear box show, over the seeds; none where any of them has a doubt.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub figures: Vec<Figure>,
@@ -68,6 +73,9 @@ pub struct Figure {
     pub mean: f64,
     /// Least and greatest.
     pub spread: [f64; 2],
+    /// Standard error and 95 % interval of the mean over the seeds, where there are several.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub known: Option<Mean>,
 }
 
 impl Figure {
@@ -80,10 +88,18 @@ impl Figure {
             "rate_kg_per_s" => ("discharge", " kg/s"),
             "bulk_density" => ("bulk density", " kg/m³"),
             "rate_over_beverloo" => ("over Beverloo's", ""),
+            // The ends of the box carry part of the shear, however long it is.
+            "residual_friction" => ("residual friction at most", ""),
+            "peak_friction" => ("peak friction at most", ""),
             other => (other, ""),
         };
-        let [low, high] = self.spread.map(short);
-        let spread = if runs > 1 { format!(" ({low} to {high}{unit})") } else { String::new() };
+        let spread = match self.known {
+            Some(known) if runs > 1 => {
+                let [low, high] = known.interval.map(short);
+                format!(" ± {}{unit} (95 % interval {low} to {high}{unit})", short(known.error))
+            }
+            _ => String::new(),
+        };
         format!("{} {}{unit}{spread}", name.replace('_', " "), short(self.mean))
     }
 }
@@ -114,6 +130,9 @@ pub struct HeapResult {
     /// Coefficient of determination of the line through the cells.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub r_squared: Option<f64>,
+    /// Standard error of the angle from the fit, degrees.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub error_deg: Option<f64>,
     /// Cells of the surface on it; 0 where they are fewer than three.
     pub cells: usize,
     /// Angles of strips or sectors, degrees; none where the heap has no angle.
@@ -181,6 +200,7 @@ impl HeapResult {
             discarded: heap.grains[1],
             angle_deg: slope.map(|s| s.angle_deg),
             no_angle: refused.map_or_else(Vec::new, |r| r.reasons.clone()),
+            error_deg: slope.map(|s| s.error_deg),
             r_squared: slope.map(|s| s.r_squared).or(refused.and_then(|r| r.r_squared)),
             cells: slope.map(|s| s.cells).or(refused.map(|r| r.cells)).unwrap_or(0),
             parts_deg: heap.parts.iter().map(|s: &Slope| s.angle_deg).collect(),
@@ -216,6 +236,7 @@ impl ReposeFile {
             angle_deg: whole.then_some(mean),
             no_angle: (!sound).then(|| reason(&heaps)),
             spread_deg: whole.then_some(ends),
+            known_deg: Mean::of(&angles).or_else(|| of_one(&heaps)).filter(|_| whole),
             at_rest: heaps.iter().filter(|h| h.rested).count(),
             figures: if sound && !slopes { figures(&heaps) } else { Vec::new() },
             measured: if slopes { angles.len() } else { sure },
@@ -223,6 +244,12 @@ impl ReposeFile {
             versions: Versions::default(),
         }
     }
+}
+
+/// How well the angle of a single heap is known, by the line through its cells.
+fn of_one(heaps: &[HeapResult]) -> Option<Mean> {
+    let [heap] = heaps else { return None };
+    Mean::new(heap.angle_deg?, heap.error_deg?, heap.cells.saturating_sub(2))
 }
 
 /// What was seen, over all heaps.
@@ -237,6 +264,7 @@ fn figures(heaps: &[HeapResult]) -> Vec<Figure> {
             name: name.into(),
             mean: values.iter().sum::<f64>() / values.len() as f64,
             spread: [end(f64::min, f64::INFINITY), end(f64::max, f64::NEG_INFINITY)],
+            known: Mean::of(&values),
         }
     };
     names.enumerate().map(figure).collect()

@@ -297,7 +297,7 @@ fn the_averages_of_one_sphere_in_a_pocket() {
     let scene = pile("fcc", 1, 0.0);
     let model = model(&scene);
     let forces = assess(&model, &associative()).forces.clone();
-    let f = fabric(&model, &forces);
+    let f = fabric(&model, &forces).unwrap();
     let weight = 4.0 / 3.0 * std::f64::consts::PI;
     assert_eq!((f.grains, f.contacts, f.rattlers), (1, 3, 1), "it carries only itself");
     assert_eq!((f.coordination, f.coordination_without_rattlers), (3.0, 0.0));
@@ -461,4 +461,26 @@ fn neighbours_in_a_packing_are_no_near_misses() {
         let left_out = model(&scene(0.5, blocks, json!({}))).interfaces.left_out;
         assert_eq!(left_out.map_or(0, |l| l.near_misses), misses, "{other}");
     }
+}
+
+#[test]
+fn a_packing_that_nothing_holds_falls_and_has_no_fabric() {
+    let ball = |k: usize, support: bool| {
+        let shape = voussoir::scene::Shape::Sphere { radius: 0.1 };
+        let spec = voussoir::scene::BlockSpec::new(format!("ball{k}"), shape);
+        voussoir::scene::BlockSpec { at: [k as f64, 0.0, 0.0], support, ..spec }
+    };
+    let mut scene = pile("fcc", 1, 0.5);
+    scene.templates.clear();
+    scene.blocks = (0..3).map(|k| ball(k, k == 0)).collect();
+    let model = model(&scene);
+    let (held, loose) = held(&model);
+    assert!(loose.is_empty() && held.assembly.free().count() == 2);
+    let toward = [nalgebra::Vector3::x()];
+    let packing = voussoir::analysis::stability::packing(&held, &toward, 0.0, &associative());
+    let direction = &packing.unwrap().directions[0];
+    let outcome = direction.rounds[direction.answer].tilt.load_factor.outcome;
+    assert_eq!(outcome, Outcome::Impossible);
+    let nothing = model.interfaces.list.iter().map(|_| Vec::new()).collect();
+    assert!(fabric(&model, &nothing).is_none());
 }

@@ -19,6 +19,8 @@ pub struct Slope {
     pub r_squared: f64,
     /// Cells on it.
     pub cells: usize,
+    /// Standard error of the angle by the scatter of the cells, degrees: of this heap, not of others.
+    pub error_deg: f64,
 }
 
 /// Length of a cell along the slope, d. Shorter: cells whose highest grain is one of the layer
@@ -132,6 +134,11 @@ fn inner(cells: &[(f64, f64)], d: f64) -> Option<&[(f64, f64)]> {
     cells.get(1..cells.iter().rposition(|c| c.1 > TOE * d)?)
 }
 
+/// The error of an angle by that of its tangent, degrees.
+fn error(of_tangent: f64, angle: f64) -> f64 {
+    (of_tangent * angle.cos().powi(2)).to_degrees()
+}
+
 impl Fit {
     /// The least squares of the heights; `None` through fewer than three cells.
     pub fn through(cells: &[(f64, f64)], turned: f64) -> Option<Self> {
@@ -163,6 +170,7 @@ impl Fit {
                 // A level surface leaves a line nothing to explain.
                 r_squared: if zz > 0.0 { xz * xz / (xx * zz) } else { 0.0 },
                 cells: seen.len(),
+                error_deg: error((rest / (n - 2.0) / xx).sqrt(), (-xz / xx).atan()),
             },
             scatter: (rest / (n - 2.0)).sqrt(),
             spread: xx.sqrt(),

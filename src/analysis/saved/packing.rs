@@ -103,6 +103,7 @@ pub fn packing(
         least,
         directions,
         fabric: None,
+        fabric_forces: None,
         doubt: None,
         left_out,
         warnings,

@@ -42,6 +42,8 @@ pub struct PackingFile {
     pub directions: Vec<PackingDirection>,
     /// How the packing carries its load when level.
     pub fabric: Option<Fabric>,
+    /// Whose forces these are, or why there are none.
+    pub fabric_forces: Option<String>,
     /// Why the answer is undecided, where it is.
     pub doubt: Option<Doubt>,
     /// What the question did not need.

@@ -54,9 +54,13 @@ pub struct Contact {
 pub struct Fabric {
     /// Free grains.
     pub grains: usize,
+    /// Contacts, whatever they carry.
+    pub touching: usize,
+    /// Contacts per free grain, whatever they carry: the geometric coordination number.
+    pub geometric_coordination: f64,
     /// Contacts that carry force.
     pub contacts: usize,
-    /// Contacts per free grain.
+    /// Contacts that carry force per free grain.
     pub coordination: f64,
     /// Free grains that carry nothing but themselves.
     pub rattlers: usize,
@@ -117,10 +121,13 @@ pub fn contacts(interfaces: &Interfaces, forces: &Forces) -> Vec<Contact> {
     all.into_iter().filter(|c| c.normal_force > tolerance::UNLOADED * mean).collect()
 }
 
-/// Averages over a packing with these contact forces.
-pub fn fabric(model: &Model, forces: &Forces) -> Fabric {
+/// Averages over a packing with these contact forces; nothing where no contact carries any.
+pub fn fabric(model: &Model, forces: &Forces) -> Option<Fabric> {
     let Model { assembly, interfaces, .. } = model;
     let list = contacts(interfaces, forces);
+    if list.is_empty() {
+        return None;
+    }
     let free = |i: usize| !assembly.blocks[i].support;
     let grains = assembly.free().count();
     let rattles = rattlers(model, forces, &list);
@@ -154,8 +161,11 @@ pub fn fabric(model: &Model, forces: &Forces) -> Fabric {
     let used: Vec<f64> = list.iter().filter_map(|c| c.mobilised).collect();
     let sliding = used.iter().filter(|m| **m >= 1.0 - tolerance::ABOUT_TO_SLIDE).count() as f64;
     let rows = |m: Matrix3<f64>| [0, 1, 2].map(|i| [0, 1, 2].map(|j| m[(i, j)]));
-    Fabric {
+    let touch = interfaces.list.iter().flat_map(|f| [f.a, f.b]).filter(|&i| free(i)).count();
+    Some(Fabric {
         grains,
+        touching: interfaces.list.len(),
+        geometric_coordination: per(touch as f64, grains),
         contacts: list.len(),
         coordination: per(degree(&mut list.iter()), grains),
         rattlers,
@@ -174,7 +184,7 @@ pub fn fabric(model: &Model, forces: &Forces) -> Fabric {
         volume,
         mobilised: (!used.is_empty()).then(|| per(used.iter().sum(), used.len())),
         sliding: (!used.is_empty()).then(|| per(sliding, used.len())),
-    }
+    })
 }
 
 /// Which free grains carry nothing but themselves: no contact pushes them along gravity.

@@ -2,7 +2,8 @@
 
 use super::{Part, Record, Section};
 use crate::heaps::{HeapResult, ReposeFile};
-use base::number::{count, short};
+use crate::text::heaps::known;
+use base::number::short;
 use check::{proof::packing::Versions, terms::Outcome};
 use scene::ProtocolKind;
 use serde_json::Value;
@@ -51,14 +52,8 @@ fn question(kind: ProtocolKind) -> &'static str {
 }
 
 fn answer(file: &ReposeFile) -> String {
-    match (file.angle_deg, file.spread_deg) {
-        (Some(angle), Some([low, high])) => format!(
-            "angle of repose {}° ({} to {}°), the mean of {}",
-            short(angle),
-            short(low),
-            short(high),
-            count(file.heaps.len(), "heap")
-        ),
+    match file.angle_deg {
+        Some(angle) => format!("angle of repose {}°{}", short(angle), known(file)),
         _ if !file.figures.is_empty() => {
             let figures = file.figures.iter().map(|f| f.says(file.measured));
             figures.collect::<Vec<_>>().join("; ")

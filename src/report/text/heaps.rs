@@ -5,6 +5,7 @@ use crate::heaps::{HeapResult, ReposeFile};
 use analysis::repose::seen::{Seen, Steady};
 use base::number::{count, seconds, short};
 use scene::ProtocolKind;
+use sweep::Mean;
 
 /// The answer about heaps as a page.
 pub fn heaps(file: &ReposeFile, options: TextOptions, layout: Layout) -> Page {
@@ -18,13 +19,8 @@ pub fn heaps(file: &ReposeFile, options: TextOptions, layout: Layout) -> Page {
         short(p.friction)
     );
     match (file.angle_deg, file.spread_deg) {
-        (Some(angle), Some([low, high])) => {
-            let seeds = count(file.measured, "heap");
-            page.title(
-                &name,
-                format!("angle of repose {angle:.1}° ({low:.1}° to {high:.1}° over {seeds})"),
-                Role::Value,
-            );
+        (Some(angle), Some(_)) => {
+            page.title(&name, format!("angle of repose {angle:.1}°{}", known(file)), Role::Value);
         }
         _ if !file.figures.is_empty() => {
             let over = count(file.measured, "run");
@@ -61,6 +57,13 @@ pub fn heaps(file: &ReposeFile, options: TextOptions, layout: Layout) -> Page {
     } else {
         page.row("runs", file.heaps.iter().flat_map(run));
     }
+    if p.kind == ProtocolKind::Shear {
+        let ends = "the ends of the box carry part of the shear: ask with two lengths and extrapolate in 1 / length";
+        page.row("ends", [ends.to_string()]);
+    }
+    if let (Some([low, high]), true) = (file.spread_deg, file.measured > 1) {
+        page.row("spread", [format!("{low:.1}° to {high:.1}° over the seeds")]);
+    }
     page.row("margin", file.heaps.iter().filter_map(margin));
     let [length, width] = p.size().map(short);
     page.row("size", [format!("{length} × {width} d, d = {} m", short(p.diameter))]);
@@ -86,6 +89,16 @@ pub fn heaps(file: &ReposeFile, options: TextOptions, layout: Layout) -> Page {
         }),
     );
     page
+}
+
+/// How well the angle is known.
+pub(crate) fn known(file: &ReposeFile) -> String {
+    let Some(Mean { error, interval: [low, high] }) = file.known_deg else { return String::new() };
+    let of = match file.measured {
+        1 => "from the fit of one heap: other seeds may lie outside".into(),
+        n => count(n, "heap"),
+    };
+    format!(" ± {error:.1}° (95 % interval {low:.1}° to {high:.1}°, {of})")
 }
 
 /// What one run showed.
@@ -167,7 +180,7 @@ fn margin(h: &HeapResult) -> Option<String> {
     let m = h.margin.as_ref()?;
     let value = match m.margin_deg {
         Some(deg) if deg < 0.0 => format!("none: short of standing by {:.2}°", -deg),
-        Some(deg) => format!("bears {deg:.2}° more"),
+        Some(deg) => format!("bears at most {deg:.2}° more (bound)"),
         None => format!("{:?}", m.status).to_lowercase(),
     };
     Some(format!(

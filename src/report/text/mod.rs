@@ -2,7 +2,7 @@
 
 mod bridge;
 mod checked;
-mod heaps;
+pub(crate) mod heaps;
 pub(crate) mod left_out;
 mod mechanism;
 pub(crate) mod options;

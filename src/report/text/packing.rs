@@ -15,6 +15,10 @@ pub fn packing(file: &PackingFile, options: TextOptions, layout: Layout) -> Page
     let Some(least) = file.directions.get(file.least) else { return page };
     let role = if least.governing().is_finite() { Role::Value } else { Role::Unsure };
     let text = format!("{}, towards {}", angle(least), point(least.toward));
+    let text = match file.left_out.iter().find(|l| l.contains("without a contact path")) {
+        Some(loose) => format!("{text}; {loose} left out"),
+        None => text,
+    };
     let text = match &file.doubt {
         Some(doubt) => format!("{text}: {}; {}", doubt.evidence, doubt.next),
         None => text,
@@ -40,9 +44,8 @@ pub fn packing(file: &PackingFile, options: TextOptions, layout: Layout) -> Page
         "directions",
         cut(&file.directions.iter().map(row).collect::<Vec<_>>(), SHOWN + 2, options),
     );
-    if let Some(fabric) = &file.fabric {
-        page.row("fabric", self::fabric(fabric, options));
-    }
+    page.row("fabric", file.fabric.iter().flat_map(|f| self::fabric(f, options)));
+    page.row("forces", file.fabric_forces.clone());
     page.row(
         "packing",
         [format!("{}, {}", count(file.grains, "free grain"), count(file.contacts, "contact"))],
@@ -132,7 +135,9 @@ fn fabric(f: &Fabric, options: TextOptions) -> Vec<String> {
     let [sx, sy, sz] = [0, 1, 2].map(|k| short(f.stress[k][k]));
     let mut rows = vec![
         format!(
-            "{} contacts carry: {} a grain, {} without {} on top",
+            "{} contacts, {} a grain (geometric); {} carry: {} a grain, {} without {} on top",
+            f.touching,
+            short(f.geometric_coordination),
             f.contacts,
             short(f.coordination),
             short(f.coordination_without_rattlers),
