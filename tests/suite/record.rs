@@ -181,6 +181,11 @@ fn a_film_is_drawn_with_what_it_goes_along() {
     let (page, staged) = record(&["stages", "structures/a-frame-stands.json", "--any-order"]);
     assert!(!staged.contains(">after ") && !staged.contains("initial position"));
     assert!(page.contains("In which order can it be built"));
+    // A train is drawn where it is worst, and the page has its loads and load factor at every position.
+    let tandem = "structures/bridge-tandem.json";
+    let (page, train) = record(&["limit", tandem, "--moving", "--law", "associative"]);
+    assert!(train.contains("Position of the train 6.789 m, λ = 1.435"));
+    assert!(page.contains("\"labels\":[\"λ = ") && page.contains("\"loads\":[{\"body\""));
 }
 
 /// Where joints yield their stiffness is listed, and what came out stands beside the question.

@@ -78,7 +78,7 @@ impl<'a> Choice<'a> {
         if fails.is_some() && !states.iter().any(|s| s.balances) {
             states.clear();
         }
-        let movement = match (view.film.last(), fails) {
+        let movement = match (view.shown(), fails) {
             (Some(_), _) => Movement::in_time(view),
             (None, Some(motion)) => Movement::mechanism(view, motion),
             (None, None) => None,
@@ -122,7 +122,7 @@ impl Movement {
 
     fn in_time(view: &View) -> Option<Self> {
         // Stages come and go and do not move.
-        let frame = view.film.last().filter(|_| view.course.words.is_empty())?;
+        let frame = view.shown().filter(|_| view.course.words.is_empty())?;
         let poses = || view.bodies.iter().zip(&frame.blocks);
         let displacements = |by: f64| -> Vec<Displacement> {
             let pose = |(b, p): (&BlockView, &dynamics::Pose)| ViewPose {
@@ -150,7 +150,11 @@ impl Movement {
         let moves = lengths.iter().map(|l| *l > MOVED * view.size()).collect();
         let speeds = displacements.iter().map(|w| w.shift).collect();
         Some(Self {
-            name: format!("{}{times}", view.course.at(frame.time)),
+            name: format!(
+                "{}{}{times}",
+                view.course.at(frame.time),
+                view.course.label(frame, &view.film)
+            ),
             displacements,
             moves,
             marks: Vec::new(),

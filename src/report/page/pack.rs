@@ -6,7 +6,7 @@
 
 use crate::{
     drawing,
-    view::{Course, View, ViewMotion, ViewShape, ViewState},
+    view::{Course, View, ViewLoad, ViewMotion, ViewShape, ViewState},
 };
 use check::verdict::mechanism::JointMotion as Kind;
 use data_encoding::BASE64;
@@ -110,12 +110,7 @@ pub(super) fn view(view: &View) -> Value {
             "line": units.points(&s.line),
             "angle": s.angle_deg,
         })),
-        "loads": {
-            "body": wholes(view.loads.iter().map(|l| l.body)),
-            "at": units.points(view.loads.iter().map(|l| &l.at)),
-            "newton": view.loads.iter().flat_map(|l| l.force.iter().copied().collect::<Vec<_>>()).collect::<Vec<f64>>(),
-            "live": wholes(view.loads.iter().map(|l| usize::from(l.live))),
-        },
+        "loads": loads(&view.loads, &units),
         "pressures": pressures(view, &units),
         "states": view.states.iter().map(|s| state(s, view.joints.len(), &units)).collect::<Vec<_>>(),
         "motions": view.motions.iter().map(|m| motion(m, &units)).collect::<Vec<_>>(),
@@ -160,6 +155,15 @@ fn bodies(view: &View, units: &Units) -> Value {
         "pieces": wholes(there().flat_map(|s| &s.pieces).flat_map(|p| std::iter::once(p.len()).chain(p.iter().map(|&i| i as usize)))),
         "edgeStart": starts(surfaces.iter().map(|s| s.map_or(0, |s| 2 * s.edges.len()))),
         "edges": wholes(there().flat_map(|s| &s.edges).flatten().map(|&i| i as usize)),
+    })
+}
+
+fn loads(list: &[ViewLoad], units: &Units) -> Value {
+    json!({
+        "body": wholes(list.iter().map(|l| l.body)),
+        "at": units.points(list.iter().map(|l| &l.at)),
+        "newton": list.iter().flat_map(|l| l.force.iter().copied().collect::<Vec<_>>()).collect::<Vec<f64>>(),
+        "live": wholes(list.iter().map(|l| usize::from(l.live))),
     })
 }
 
@@ -335,6 +339,8 @@ fn film(view: &View, units: &Units) -> Value {
         "way": view.course.way,
         "opens": view.course.opens.map_or(1.0, |k| k as f64 / (view.film.len() - 1) as f64),
         "words": view.course.words,
+        "labels": view.course.labels,
+        "loads": view.course.loads.iter().map(|list| loads(list, units)).collect::<Vec<_>>(),
         "hidden": wholes(view.course.hidden.iter().flatten().map(|h| usize::from(*h))),
         "far": far,
         "wide": wide,

@@ -1,5 +1,6 @@
 //! Paths of `settle` and `push` as films: one frame a point of the curve.
 
+use super::ViewLoad;
 use base::number::{seconds, short};
 use check::{
     path::saved::read_poses,
@@ -13,7 +14,7 @@ use model::interface::Model;
 use nalgebra::Vector3;
 
 /// What a film goes along.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Course {
     /// What it shows.
     pub name: String,
@@ -25,6 +26,10 @@ pub struct Course {
     pub way: &'static str,
     /// The frame that the answer is about, which is shown first; the last where none is said.
     pub opens: Option<usize>,
+    /// What stands beside the number of each frame: the answer there. Empty where there is none.
+    pub labels: Vec<String>,
+    /// The loads of each frame, where they move; else empty.
+    pub loads: Vec<Vec<ViewLoad>>,
     /// Of stages: what each frame is; else empty.
     pub words: Vec<String>,
     /// Of stages: blocks that are not there, frame by frame; else empty.
@@ -42,6 +47,8 @@ impl Default for Course {
             unit: "s",
             way: "displacement in the simulation",
             opens: None,
+            labels: Vec::new(),
+            loads: Vec::new(),
             words: Vec::new(),
             hidden: Vec::new(),
         }
@@ -55,6 +62,15 @@ impl Course {
             (TIME, _) => format!("after {}", seconds(value)),
             (what, "") => format!("{what} {}", short(value)),
             (what, unit) => format!("{what} {} {unit}", short(value)),
+        }
+    }
+
+    /// The answer at a frame, to stand behind its number.
+    pub fn label(&self, frame: &Frame, film: &[Frame]) -> String {
+        let found = film.iter().position(|f| f.time == frame.time);
+        match found.and_then(|k| self.labels.get(k)).filter(|l| !l.is_empty()) {
+            Some(label) => format!(", {label}"),
+            None => String::new(),
         }
     }
 

@@ -151,7 +151,9 @@ impl View {
             .answer
             .kinematic()
             .and_then(|a| quake(&file.scene.input, model, Vector3::from(a.toward)).ok());
-        let moved = match (file.answer.moving(), model::train::Way::of(&file.scene.input, model)) {
+        let way =
+            file.answer.moving().and_then(|_| model::train::Way::of(&file.scene.input, model));
+        let moved = match (file.answer.moving(), &way) {
             (Some(a), Some(way)) => way.at(a.position()).map_err(|e| ViewError(e.to_string()))?,
             _ => None,
         };
@@ -177,10 +179,15 @@ impl View {
         view.stage(model, file);
         view.removals(model, file);
         view.film.retain(|f| f.blocks.len() == view.bodies.len());
-        if let Some(worst) = file.answer.moving() {
-            view.course = Course::train(worst.x, &view.film);
+        if let Some(way) = &way {
+            view.course = Course::train(file, way, &view.film);
         }
         Ok(view)
+    }
+
+    /// The frame that stands for a film where only one is drawn: the one it opens with.
+    pub fn shown(&self) -> Option<&Frame> {
+        self.course.opens.map_or(self.film.last(), |k| self.film.get(k))
     }
 
     /// Blocks, joints and loads alone.

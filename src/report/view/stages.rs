@@ -49,6 +49,7 @@ impl View {
                 .map(|(k, (_, s))| words(k, s))
                 .collect(),
             hidden: list.iter().map(|s| s.present.iter().map(|p| !p).collect()).collect(),
+            ..Course::default()
         };
         let first = |i: usize| list.iter().position(|s| s.present[i]);
         let last = (list.len() - 1).max(1) as f64;

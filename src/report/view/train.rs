@@ -1,12 +1,13 @@
 //! A train on its way as a film: one frame a position, each with the mechanism that starts there.
 
 use super::{BlockView, Course, View, ViewMotion, ViewPart};
+use base::number::rounded_down;
 use check::{
     proof::result::ResultFile,
     verdict::{claim::Claim, evidence::read_rates},
 };
 use dynamics::{Fidelity, Frame, Pose};
-use model::interface::Model;
+use model::{interface::Model, train::Way};
 use nalgebra::Vector3;
 
 /// The mechanisms are shown so far along that the farthest corner has come this share of the size of
@@ -14,10 +15,27 @@ use nalgebra::Vector3;
 const SHOWN: f64 = 0.03;
 
 impl Course {
-    /// That of a train whose worst position is `x`, over the frames of its positions.
-    pub(super) fn train(x: f64, film: &[Frame]) -> Self {
+    /// That of a train over the frames of its positions, with the load factor and the loads at each;
+    /// it opens with the worst.
+    pub(super) fn train(file: &ResultFile, way: &Way, film: &[Frame]) -> Self {
+        let worst = file.answer.moving();
+        let here = |f: &Frame| {
+            let all = file.directions.iter().filter_map(|d| d.answer.moving());
+            let own = all.filter(|a| worst.is_some_and(|w| w.travel == a.travel));
+            own.into_iter().find(|a| a.x == f.time)
+        };
+        let label = |f: &Frame| {
+            let value = here(f).and_then(|a| a.load_factor.value);
+            value.map_or(String::new(), |v| format!("λ = {}", rounded_down(v)))
+        };
+        let loads = |f: &Frame| {
+            let there = here(f).and_then(|a| way.at(a.position()).ok().flatten());
+            there.map_or_else(Vec::new, |there| super::loads(&there.model))
+        };
         Self {
-            opens: film.iter().position(|f| f.time == x),
+            opens: film.iter().position(|f| worst.is_some_and(|w| w.x == f.time)),
+            labels: film.iter().map(label).collect(),
+            loads: film.iter().map(loads).collect(),
             name: "train, position by position".into(),
             quantity: "Position of the train",
             unit: "m",

@@ -9,7 +9,7 @@ function take(fresh) {
   if (view.slope) unpack(view.slope);
   view.states.forEach(unpack);
   view.motions.forEach(unpack);
-  if (view.film) unpack(view.film);
+  if (view.film) { unpack(view.film); view.film.loads.forEach(unpack); }
   if (view.values) unpack(view.values);
   if (view.pressures) unpack(view.pressures);
   [COUNT, JOINTS] = [bodies.ids.length, joints.a.length];

@@ -94,7 +94,10 @@ function setWay(way) {
   state.way = way;
   el("way").value = Math.round(1000 * way);
   const film = state.motion === FILM;
-  const text = state.motion === -1 ? "" : film && view.film.words.length ? view.film.words[Math.round(way * (view.film.words.length - 1))] : film ? `${short(view.film.times[Math.round(way * (view.film.times.length - 1))], 3)} ${view.film.unit}`.trim() : !way ? "at rest" : displacement() ? `${meters(displacement())} at the farthest corner × ${short((way * amplitude(view.motions[state.motion])) / displacement(), 2)}` : `${meters(way * amplitude(view.motions[state.motion]))} at the fastest corner`;
+  const frame = film ? Math.round(way * (view.film.times.length - 1)) : 0;
+  loads = film && view.film.loads.length ? view.film.loads[frame] : view.loads;
+  const label = film && view.film.labels[frame] ? `, ${view.film.labels[frame]}` : "";
+  const text = state.motion === -1 ? "" : film && view.film.words.length ? view.film.words[Math.round(way * (view.film.words.length - 1))] : film ? `${short(view.film.times[frame], 3)} ${view.film.unit}`.trim() + label : !way ? "at rest" : displacement() ? `${meters(displacement())} at the farthest corner × ${short((way * amplitude(view.motions[state.motion])) / displacement(), 2)}` : `${meters(way * amplitude(view.motions[state.motion]))} at the fastest corner`;
   el("wayText").textContent = text;
   el("way").setAttribute("aria-valuetext", text);
   if (film && state.picked) numbers();
