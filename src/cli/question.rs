@@ -24,7 +24,7 @@ use voussoir::{
     report::{
         chart::Chart,
         json, page,
-        record::Record,
+        record::{self, Record},
         tell,
         text::{self, Asked, TextOptions},
         view::View,
@@ -259,6 +259,16 @@ impl<'a> Session<'a> {
         report::is_printed(&self.common.report) || self.pictures.printed()
     }
 
+    /// The joints that are used most, for who reads the answer in full.
+    fn weak_joints(&self, file: &ResultFile) -> Vec<String> {
+        let read = !(self.common.json || self.common.quiet) || self.report.is_some();
+        if !read || !matches!(file.question.kind(), Kind::Assess | Kind::Limit) {
+            return Vec::new();
+        }
+        let view = View::of_forces(&self.model, file);
+        view.map_or_else(|_| Vec::new(), |view| record::weak(&self.model, &view))
+    }
+
     /// Saves a result and prints it; `own` are the verb's own options that change the answer.
     pub fn answer(&self, terminal: &Terminal, file: ResultFile) -> anyhow::Result<ResultFile> {
         self.answer_seen(terminal, Depicted::Scene(Vec::new()), file)
@@ -283,7 +293,8 @@ impl<'a> Session<'a> {
             name if name == "-" => "SCENE".into(),
             name => quoted(&name),
         };
-        let asked = Asked { scene: &scene, options: &terminal.again };
+        let weak = self.weak_joints(&file);
+        let asked = Asked { scene: &scene, options: &terminal.again, weak: &weak };
         let layout = terminal.layout(&self.common.scene);
         // Said to who reads numbers or pictures alone, too.
         if let Some(words) = text::left_out(&file) {

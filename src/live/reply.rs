@@ -97,7 +97,12 @@ pub fn answer(
     let name = ready.file.name();
     let unnamed = ready.file.path.file_name().and_then(|n| n.to_str()).unwrap_or("");
     let layout = Layout { unnamed, width: usize::MAX };
-    let mut words = text::render(&result, Asked { scene: &name, options: "" }, EVERYTHING, layout);
+    let mut words = text::render(
+        &result,
+        Asked { scene: &name, options: "", ..Default::default() },
+        EVERYTHING,
+        layout,
+    );
     // Commands ask about the file, which may say something else.
     words.drop_row("next");
     let charts = tell::charts(&result);

@@ -253,7 +253,7 @@ fn what_falls_by_itself_is_proved_to_have_no_load_factor() {
     let one = (0.5_f64.atan() - 35_f64.to_radians()).tan();
     assert!((bound - one).abs() < 1e-6 * one.abs(), "{bound} for {one}");
     assert!(said.status == FactorStatus::NotAtRest && said.value.is_none(), "{said:?}");
-    let asked = text::Asked { scene: "s", options: "" };
+    let asked = text::Asked { scene: "s", options: "", ..Default::default() };
     let parsed = text::render(&honest, asked, Default::default(), Default::default()).to_string();
     let first = parsed.lines().next().unwrap();
     assert!(first.contains("without its live load it falls"), "{parsed}");
@@ -287,7 +287,7 @@ fn pushed_up_it_has_none_either(slope: &Scene) {
         .loads
         .live,
     );
-    let asked = text::Asked { scene: "s", options: "" };
+    let asked = text::Asked { scene: "s", options: "", ..Default::default() };
     let held = ask::asked(&up, &Question::Limit(LimitOptions::default()));
     let said = held.answer.load_factor().unwrap();
     assert!(said.associative.found().unwrap().0 > 0.0, "{said:?}");

@@ -355,7 +355,7 @@ fn walls_that_slide() {
     assert!(a.curve.is_some() || a.no_curve.is_some());
     let said = voussoir::report::text::render(
         &file,
-        voussoir::report::text::Asked { scene: "s", options: "" },
+        voussoir::report::text::Asked { scene: "s", options: "", ..Default::default() },
         Default::default(),
         Default::default(),
     );

@@ -204,7 +204,7 @@ fn a_picture_does_not_depend_on_units() {
         let view = View::new(&model, &file, Vec::new()).unwrap();
         let text = render(
             &file,
-            Asked { scene: "s", options: "" },
+            Asked { scene: "s", options: "", ..Default::default() },
             TextOptions::default(),
             Layout::default(),
         );
@@ -295,7 +295,7 @@ fn a_page_of_5000_blocks_stays_below_10_mb() {
     );
     let text = render(
         &file,
-        Asked { scene: "s", options: "" },
+        Asked { scene: "s", options: "", ..Default::default() },
         TextOptions { verbose: true, brief: false },
         Layout::default(),
     );

@@ -9,6 +9,7 @@
 
 use super::{Part, Section, percent, quantity};
 use crate::view::{JointView, Resultant, View, ViewPart, ViewState};
+use base::number::point;
 use model::{
     interface::{Interface, Model},
     strength::crushing::{crushes, edge_bounds},
@@ -30,6 +31,48 @@ impl Use<'_> {
     fn greatest(&self) -> f64 {
         self.shares.iter().copied().filter(|s| !s.is_nan()).fold(0.0, f64::max)
     }
+}
+
+/// Joints that a line of text names.
+const FEW: usize = 3;
+/// A joint that uses less is not weak.
+const WEAK: f64 = 0.5;
+
+/// The joints that are used most, in words: where, e / t, friction, compression. None where no forces
+/// balance, or nothing is near its limit.
+pub fn weak(model: &Model, view: &View) -> Vec<String> {
+    let state = |part: ViewPart| view.states.iter().find(|s| s.part == part && s.balances);
+    let Some(state) = state(ViewPart::Dry).or(state(ViewPart::Answer)) else { return Vec::new() };
+    let all = uses(model, view, state);
+    let line = |u: &Use| {
+        let joint = &view.joints[u.joint];
+        let [a, b] = [joint.a, joint.b].map(|i| view.bodies[i].id.as_str());
+        let edge = (joint.area > 0.0).then(|| format!("e/t {:.3}", 0.5 * u.at.used));
+        let named = |name: &str, share: f64| {
+            share.is_finite().then(|| format!("{name} {}", percent(share)))
+        };
+        let [friction, crushing] =
+            [named("friction", u.shares[1]), named("compression", u.shares[2])];
+        let words: Vec<String> = [edge, friction, crushing].into_iter().flatten().collect();
+        format!("{a} | {b}  at {}: {}", point(u.at.at.into()), words.join(", "))
+    };
+    let near = |u: &&Use| u.greatest() >= WEAK;
+    all.iter().take(FEW).filter(near).map(line).collect()
+}
+
+/// What the joints use, the most used first.
+fn uses<'a>(model: &Model, view: &View, state: &'a ViewState) -> Vec<Use<'a>> {
+    let mut uses: Vec<Use> = state
+        .resultants
+        .iter()
+        .enumerate()
+        .filter_map(|(joint, at)| {
+            let at = at.as_ref()?;
+            Some(Use { joint, at, shares: shares(model, view, state, joint, at) })
+        })
+        .collect();
+    uses.sort_by(|a, b| b.greatest().total_cmp(&a.greatest()).then(a.joint.cmp(&b.joint)));
+    uses
 }
 
 /// A table for each system of forces that is told.
@@ -54,16 +97,7 @@ pub(super) fn sections(model: &Model, view: &View) -> Vec<Section> {
 const ROUNDING: f64 = 1e-9;
 
 fn table(model: &Model, view: &View, state: &ViewState) -> Part {
-    let mut uses: Vec<Use> = state
-        .resultants
-        .iter()
-        .enumerate()
-        .filter_map(|(joint, at)| {
-            let at = at.as_ref()?;
-            Some(Use { joint, at, shares: shares(model, view, state, joint, at) })
-        })
-        .collect();
-    uses.sort_by(|a, b| b.greatest().total_cmp(&a.greatest()).then(a.joint.cmp(&b.joint)));
+    let uses = uses(model, view, state);
     let row = |u: &Use| {
         let joint = &view.joints[u.joint];
         let name = |i: usize| view.bodies[i].id.as_str();

@@ -18,6 +18,8 @@ pub use section::{Part, Section};
 use section::{listed, percent, quantity};
 
 use super::view::View;
+pub use joints::weak;
+
 use crate::drawing::{self, Aspect};
 use check::proof::result::ResultFile;
 use check::question::QuestionKind;

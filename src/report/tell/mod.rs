@@ -101,8 +101,11 @@ pub(crate) fn title(page: &mut Page, file: &ResultFile) {
         text = format!("{text}; {words}");
     }
     if let Some(words) = required(file) {
-        let fails = file.required.is_some_and(|r| r.met == Some(false));
-        role = if fails { Role::Bad } else { Role::Unsure };
+        role = match file.required.and_then(|r| r.met) {
+            Some(true) => role,
+            Some(false) => Role::Bad,
+            None => Role::Unsure,
+        };
         text = format!("{text}; {words}");
     }
     if let Some(doubt) = &file.run.doubt {
@@ -111,7 +114,7 @@ pub(crate) fn title(page: &mut Page, file: &ResultFile) {
     page.title(&file.scene.name, under(file, text), role);
 }
 
-/// What was required and is not, or may not be, there.
+/// What was required, and whether it is there.
 fn required(file: &ResultFile) -> Option<String> {
     let required = file.required?;
     let unit = match file.question.kind() {
@@ -119,11 +122,12 @@ fn required(file: &ResultFile) -> Option<String> {
         _ => "",
     };
     let least = short(required.least);
-    match required.met {
-        Some(true) => None,
-        Some(false) => Some(format!("less than the required {least}{unit}")),
-        None => Some(format!("whether the required {least}{unit} is met is undecided")),
-    }
+    let met = match required.met {
+        Some(true) => "met",
+        Some(false) => "not met",
+        None => "undecided",
+    };
+    Some(format!("required {least}{unit}: {met}"))
 }
 
 /// What an answer rests on where edges and corners meet with several normals. Why one is undecided

@@ -29,12 +29,14 @@ use check::{
 use solve::Engine;
 
 /// How a question was put, for the commands that may come next.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Asked<'a> {
     /// The scene, as one types it.
     pub scene: &'a str,
     /// The options that another answer would need to be the same, as one types them.
     pub options: &'a str,
+    /// The joints that are used most, in words.
+    pub weak: &'a [String],
 }
 
 /// So many findings are shown, which take several lines each.
@@ -53,6 +55,7 @@ pub fn render(file: &ResultFile, asked: Asked, options: TextOptions, layout: Lay
     page.blank();
     mechanism::rows(&mut page, file, options);
     mechanism::members(&mut page, file, options);
+    page.row("weak joints", asked.weak.iter().cloned());
     (telling.rows)(&mut page, file, options);
     tell::part(&mut page, file);
     tell::digits(&mut page, file, options);

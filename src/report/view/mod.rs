@@ -190,6 +190,15 @@ impl View {
         self.course.opens.map_or(self.film.last(), |k| self.film.get(k))
     }
 
+    /// Blocks, joints, loads and the forces of the answer.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn of_forces(model: &Model, file: &ResultFile) -> Result<Self, ViewError> {
+        let states = state::of(model, file).map_err(ViewError)?;
+        Ok(Self { states, ..Self::bare(model) })
+    }
+
     /// Blocks, joints and loads alone.
     pub fn bare(model: &Model) -> Self {
         let assembly = &model.assembly;

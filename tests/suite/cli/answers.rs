@@ -300,3 +300,19 @@ fn four_digits_are_shown_on_the_safe_side_and_all_that_are_known_with_verbose() 
     let decimals = value.split_once('.').unwrap().1.len() as i32;
     assert!(10f64.powi(-decimals) >= high - low && decimals >= 5, "{line} ± {}", high - low);
 }
+
+/// The first line says what was required and whether it is there, as the exit code does.
+#[test]
+fn what_is_required_stands_on_the_first_line() {
+    let desk = Desk::new();
+    for (least, code, words) in
+        [("0.01", YES, "required 0.01: met"), ("9", NO, "required 9: not met")]
+    {
+        let answer = voussoir(&["limit", &desk.at("pushed.json"), "-q", "--require", least]);
+        let line = out(&expect(code, answer));
+        assert!(line.contains(words) && line.lines().count() == 1, "{line}");
+    }
+    // The joints that are used most stand in the answer.
+    let text = out(&expect(YES, voussoir(&["limit", &desk.at("pushed.json")])));
+    assert!(text.contains("  weak joints ") && text.contains("e/t 0."), "{text}");
+}

@@ -104,7 +104,7 @@ fn text_and_table_agree_on_where_a_crushing_hinge_is() {
     assert!(at[1].abs() < 1e-6 && at[2].abs() < 1e-9, "{at:?}");
     // The pressure on the crushed strip has its middle halfway.
     assert!((number(&row, "x").abs() - (0.25 - 0.5 * depth)).abs() < 1e-2 * depth, "{row:?}");
-    let asked = Asked { scene: "SCENE", options: "" };
+    let asked = Asked { scene: "SCENE", options: "", ..Default::default() };
     let options = TextOptions { verbose: true, brief: false };
     let text = render(&result, asked, options, Layout::default()).to_string();
     assert!(text.contains(&format!("at {}", voussoir::number::point(at))), "{at:?}: {text}");
