@@ -88,7 +88,7 @@ impl Answer {
     }
 
     fn options(&self) -> Asked<'static> {
-        Asked { scene: "SCENE", options: "" }
+        Asked { scene: "SCENE", ..Asked::default() }
     }
 }
 

@@ -27,7 +27,7 @@ pub fn processors() -> usize {
     thread::available_parallelism().map_or(1, |n| n.get())
 }
 
-/// So many of the threads that are asked for may be started: [four a processor](A_PROCESSOR).
+/// So many of the threads that are asked for may be started: four a processor.
 pub fn most(asked: usize) -> usize {
     asked.min(A_PROCESSOR * processors())
 }
