@@ -269,7 +269,11 @@ fn same_without(worst: &Quaked, bare: &Model, control: &Control) -> Result<(), S
     let other =
         (l.outcome == Outcome::Found).then(|| Participation::of(&quake, &l.rates)).flatten();
     match (worst.participation(), other) {
-        (Some(with), Some(without)) if with.is_same(&without) => Ok(()),
+        (Some(with), Some(without))
+            if with.is_same(&without) && kinematic::same_motion(bare, worst.rates(), &l.rates) =>
+        {
+            Ok(())
+        }
         (_, Some(_)) => {
             Err("motions are followed without members, and without them another mechanism governs"
                 .into())

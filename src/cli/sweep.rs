@@ -113,7 +113,9 @@ fn rows_file(args: &Sweep, plan: &Path) -> anyhow::Result<PathBuf> {
         }
         (Some(output), _) => Ok(output.clone()),
         (None, Some(stem)) if plan.as_os_str() != "-" => {
-            Ok(PathBuf::from(format!("{}.rows.jsonl", stem.to_string_lossy())))
+            let (number, of) = args.shard.numbers();
+            let shard = if of > 1 { format!(".{number}-of-{of}") } else { String::new() };
+            Ok(PathBuf::from(format!("{}{shard}.rows.jsonl", stem.to_string_lossy())))
         }
         _ => bail!("a plan from standard input needs --output FILE for its rows"),
     }

@@ -87,3 +87,22 @@ fn a_group_that_is_wrong_is_refused_with_its_place() {
     let wrong = groups(folder.path(), &[]).unwrap_err().to_string();
     assert!(wrong.contains("experiment.json:") && wrong.contains("test"), "{wrong}");
 }
+
+/// A loading beam without weight slides where the wall would rock: that is said, and of a wall whose
+/// beam bears its vertical load it is not.
+#[test]
+fn a_loading_beam_without_weight_is_reported() {
+    let findings = |beam: f64, force: f64| {
+        let text = std::fs::read_to_string(corpus().join("granite-walls/wall.json")).unwrap();
+        let mut scene: serde_json::Value = serde_json::from_str(&text).unwrap();
+        scene["materials"]["beam"]["density"] = beam.into();
+        scene["loads"]["dead"][0]["force"][2] = force.into();
+        let (scene, _) = voussoir::scene::read_str("wall", scene.to_string()).unwrap();
+        let model = voussoir::interface::prepare(&scene).unwrap();
+        let said = model.findings().filter(|f| f.text.contains("presses its joint"));
+        said.map(|f| f.text.clone()).collect::<Vec<_>>()
+    };
+    let light = findings(1e-3, -1e-6);
+    assert!(light.len() == 1 && light[0].contains("\"beam\""), "{light:?}");
+    assert!(findings(1e-3, -1e5).is_empty() && findings(2000.0, -1e-6).is_empty());
+}

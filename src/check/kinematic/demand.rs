@@ -76,7 +76,10 @@ pub fn demand(site: &Site, a0: f64, curves: &[(&str, States)], gravity: f64) -> 
     let slc = site.slc.as_ref().map(|s| ("SLC", Elastic::new(s, gravity)));
     let spectra: Vec<_> = [("SLV", ground)].into_iter().chain(slc).collect();
     if curves.is_empty() {
-        left_out.push("displacements: the curve does not reach both limit states".into());
+        left_out.push(
+            "displacements: no curve reaches both limit states, or none was computed (--linear)"
+                .into(),
+        );
     }
     for (curve, states) in curves {
         for (word, spectrum) in &spectra {

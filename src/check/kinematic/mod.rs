@@ -29,7 +29,7 @@ mod tells;
 pub use capacity::{Capacity, LimitState, SLC, SLV, States, capacity};
 pub use demand::{Check, Demand, demand};
 pub use mass::{Mass, MassKind, Quake, oblique, quake, without_members};
-pub use participation::{Participation, STILL, Share, control_point, way_of};
+pub use participation::{Participation, STILL, Share, control_point, same_motion, way_of};
 pub use spectrum::{DAMPING, Elastic, Floor};
 pub use tells::{Unique, is_unique};
 

@@ -7,7 +7,7 @@ use super::{
 };
 use crate::verdict::{Rate, certificate};
 use base::tolerance;
-use model::assembly::Assembly;
+use model::{assembly::Assembly, interface::Model};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -182,4 +182,24 @@ pub fn control_point(quake: &Quake, rates: &[Rate]) -> Option<(usize, Vector3<f6
         }
     }
     best.map(|(i, _)| (i, assembly.blocks[i].centroid))
+}
+/// Mechanisms whose rates differ by less than this, relative to the fastest, are one. Larger: a wall
+/// that slides counts as one that turns. Smaller: the last digits of two programs make two of one.
+const ONE_MOTION: f64 = 1e-3;
+
+/// Whether the blocks that one mechanism moves are moved alike by another, spins included: masses may
+/// go the same way where one slides and the other turns.
+pub fn same_motion(model: &Model, one: &[Rate], other: &[Rate]) -> bool {
+    let size = |i: usize| model.assembly.blocks[i].size;
+    let speed = |(i, r): (usize, &Rate)| r.velocity.norm().max(r.spin.norm() * size(i));
+    let fastest = |rates: &[Rate]| rates.iter().enumerate().map(speed).fold(0.0, f64::max);
+    let (a, b) = (fastest(one), fastest(other));
+    if !(a > 0.0 && b > 0.0) {
+        return false;
+    }
+    one.iter().zip(other).enumerate().all(|(i, (p, q))| {
+        let velocity = p.velocity / a - q.velocity / b;
+        let spin = p.spin / a - q.spin / b;
+        velocity.norm().max(spin.norm() * size(i)) <= ONE_MOTION
+    })
 }

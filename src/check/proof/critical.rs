@@ -198,7 +198,7 @@ pub(super) fn derive(
     require(
         &mut f,
         found.iter().all(|v| low - slack <= v.lower && v.upper <= high + slack),
-        format!("{} flips between {low} and {high} are proved on both sides", found.len()),
+        format!("flips between {low} and {high}: {}, proved on both sides", found.len()),
     );
     scanned(&mut f, o, &c, &values);
     d.part("answer", f);

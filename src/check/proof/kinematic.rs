@@ -12,7 +12,7 @@ use super::{
 use crate::{
     kinematic::{
         Capacity, Demand, Participation, Quake, STILL, Unique, capacity, demand, is_unique, quake,
-        way_of, without_members,
+        same_motion, way_of, without_members,
     },
     path::Drive,
     question::{KinematicOptions, directions},
@@ -300,6 +300,22 @@ fn curves(
             d.part("curve with members", failure("the scene has no members"));
         }
         if let Some((said, path)) = follow(d, &bare, &e.curve)? {
+            if answer.without_members {
+                let first = path.points.first().map(|p| p.certificate.rates.as_slice());
+                let begins = read_rates(&bare.assembly, first.unwrap_or_default())?;
+                let own = worst.rates.as_deref().unwrap_or_default();
+                let mut f = Findings::default();
+                match same_motion(&bare, &begins, own) {
+                    true => {
+                        f.holds.push("the curve without members begins with the mechanism".into())
+                    }
+                    false => f.fails.push(
+                        "the curve without members begins with another mechanism than that of α0"
+                            .into(),
+                    ),
+                }
+                d.part("curve without members", f);
+            }
             (answer.curve, curve) = (Some(said), Some(path));
         }
         if let Some((said, path)) = held {

@@ -24,6 +24,7 @@ use super::{
     plane::Plane,
     spheres,
     tally::Tally,
+    weightless,
 };
 use crate::assembly::{Assembly, JointLaw};
 use base::{
@@ -170,6 +171,7 @@ pub fn detect_until(
     interfaces.findings = tally.findings(assembly);
     let told = interfaces.join(assembly)?;
     interfaces.findings.extend(told);
+    interfaces.findings.extend(weightless::finding(assembly, &interfaces));
     Ok(interfaces)
 }
 

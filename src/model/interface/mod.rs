@@ -29,6 +29,7 @@ mod stage;
 mod tally;
 #[cfg(test)]
 mod tests;
+mod weightless;
 
 pub use axes::on_its_side;
 pub use balance::in_balance;

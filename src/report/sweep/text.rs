@@ -1,7 +1,7 @@
 //! The summary of a sweep as a page.
 
 use crate::text::{Layout, Page, Role};
-use base::number::{count, seconds, short};
+use base::number::{count, rounded_down, seconds, short};
 use sweep::{Header, LognormalFit, Proportion, Sampling, Summary};
 
 /// So many numbers are listed by their influence.
@@ -34,7 +34,7 @@ pub fn summary(header: &Header, summary: &Summary, brief: bool, layout: Layout) 
             [
                 format!(
                     "least {} (row {}), greatest {} (row {}){part}",
-                    short(q.least.0),
+                    rounded_down(q.least.0),
                     q.least.1,
                     short(q.greatest.0),
                     q.greatest.1

@@ -45,9 +45,12 @@ pub(super) fn why(page: &mut Page, file: &ResultFile, words: FactorWords) {
                     unit(file)
                 ),
             });
-            page.paragraph(
-                "Joints that slide are taken to open as well (associative): for dry friction this is an upper bound.",
-            );
+            // Where nothing slides both laws are one, which is said next.
+            if !matches!(&file.dry, Some(d) if d.found == Found::NothingSlides) {
+                page.paragraph(
+                    "Joints that slide are taken to open as well (associative): for dry friction this is an upper bound.",
+                );
+            }
         }
         (Outcome::Unbounded, _) => {
             page.paragraph("Contact forces balance the live load by itself, so any multiple of it can be added. Joints that slide are taken to open as well (associative): with dry friction there may be a limit.");
@@ -107,7 +110,7 @@ pub(super) fn digits(page: &mut Page, file: &ResultFile, options: TextOptions) {
         );
     }
     if let Some(v) = file.dry.as_ref().and_then(|d| d.value) {
-        page.row("with friction", [format!("{v}")]);
+        page.row("dry value", [format!("{} = {v}", if words.tilt { "tan θ" } else { words.name })]);
     }
 }
 

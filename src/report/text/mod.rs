@@ -78,6 +78,8 @@ pub fn render(file: &ResultFile, asked: Asked, options: TextOptions, layout: Lay
         page.row("reduced", file.run.left_out.iter().cloned());
     } else {
         page.row("reduced", reduced(file));
+        let replaced = file.run.left_out.iter().filter(|line| line.contains("replaces them"));
+        page.row("left out", replaced.cloned());
     }
     page.row(
         "note",
@@ -134,6 +136,8 @@ fn reduced(file: &ResultFile) -> Option<String> {
         .run
         .left_out
         .iter()
+        // What acts in the place of something else makes nothing smaller.
+        .filter(|line| !line.contains("replaces them"))
         .filter_map(|line| line.split([':', '(']).next())
         .map(str::trim)
         .collect();

@@ -126,8 +126,10 @@ impl Page {
         for item in items {
             for line in wrap(&printable(&item), self.width - COLUMN) {
                 let room = COLUMN - 2;
+                // A name that fills its column still stands apart from what follows.
+                let apart = if label.chars().count() >= room { "  " } else { "" };
                 self.lines.push(vec![
-                    span(format!("  {label:<room$}"), Role::Label),
+                    span(format!("  {label:<room$}{apart}"), Role::Label),
                     span(line, Role::Plain),
                 ]);
                 label = "";

@@ -118,9 +118,9 @@ pub(super) fn title(file: &ResultFile) -> (String, Role) {
     text += &format!(" towards {}", point(a.toward));
     if let Some(d) = &a.numbers.demand {
         let meets = |share: f64| {
-            let by = |r| format!(", displacement check {} × the demand", short(r * share));
+            let by = |r| format!(", displacement check {} × the demand", rounded_down(r * share));
             let displacement = d.displacement.map_or(String::new(), by);
-            format!("linear check {} × the demand{displacement}", short(d.linear * share))
+            format!("linear check {} × the demand{displacement}", rounded_down(d.linear * share))
         };
         let share = a.numbers.participation.as_ref().and_then(|p| p.share_of_bodies());
         text += &format!("; {}", meets(share.unwrap_or(1.0)));
@@ -314,8 +314,8 @@ fn linear(page: &mut Page, a: &KinematicAnswer) {
         ),
         format!("FC = {}", a.fc),
     ];
-    if let (Some(a0), Some(alpha)) = (a.numbers.a0, alpha(&a.alpha0)) {
-        lines.push(format!("a0 = α0 g / (e* FC) = {} m/s², α0 = {alpha}", seven(a0)));
+    if let (Some(a0), Some(alpha)) = (a.numbers.a0, a.alpha0.value) {
+        lines.push(format!("a0 = α0 g / (e* FC) = {} m/s², α0 = {}", seven(a0), seven(alpha)));
     }
     if let Some((value, lower, upper)) = a.alpha0.associative.found()
         && let Some(a0) = a.numbers.a0

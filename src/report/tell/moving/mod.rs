@@ -8,7 +8,7 @@ use super::{
 };
 use crate::text::{
     options::{TextOptions, cut},
-    page::Page,
+    page::{Page, Role},
 };
 use base::{
     number::{count, rounded_down, rounded_up, short},
@@ -31,7 +31,12 @@ pub(super) const TELLING: Telling = Telling {
     },
     title: |file| {
         let (text, role) = limit::title(file);
-        (text + &place(file).unwrap_or_default(), role)
+        let text = text.replace("the live load", "the axle loads");
+        let (end, role) = match at_an_end(file) {
+            true => ("; that is an end of its path: extend the path", Role::Unsure),
+            false => ("", role),
+        };
+        (text + &place(file).unwrap_or_default() + end, role)
     },
     why: |page, file| {
         why(page, file);
@@ -58,6 +63,19 @@ pub(super) fn place(file: &ResultFile) -> Option<String> {
         false => format!(" {}", a.travel.words()),
     };
     Some(format!(" with the train at x = {}{way}", short(a.x)))
+}
+
+/// Whether the worst position is where the path ends while the train still stands on the bridge: then
+/// a worse one may lie beyond.
+fn at_an_end(file: &ResultFile) -> bool {
+    let (Some(a), Some(train)) = (file.answer.moving(), &file.scene.input.train) else {
+        return false;
+    };
+    let near = |end: f64| (a.x - end).abs() <= 1e-9 * (train.path[1] - train.path[0]).abs();
+    // Half of a path is enough where bridge and train are their own mirror images.
+    let middle =
+        train::is_symmetric(train) && train.path.iter().any(|x| x.abs() < 1e-9 && near(*x));
+    train.path.iter().any(|x| near(*x)) && !middle
 }
 
 /// What was asked, and what was not.
