@@ -113,7 +113,9 @@ pub fn place(
                     .hint(format!("supports are {}", supports())));
             }
         },
-        None => first_support(model)
+        None => bearing_supports(model)
+            .first()
+            .copied()
             .ok_or_else(|| error("no support touches a free block: there is no thrust".into()))?,
     };
     let id = &blocks[support].id;
@@ -190,10 +192,10 @@ fn touches(model: &Model, support: usize) -> bool {
         .any(|f| (f.a == support && free(f.b)) || (f.b == support && free(f.a)))
 }
 
-/// The support that is asked about where none is named: the first that touches a free block.
-pub fn first_support(model: &Model) -> Option<usize> {
+/// The supports that touch a free block; where none is named, the first of them is asked about.
+pub fn bearing_supports(model: &Model) -> Vec<usize> {
     let blocks = &model.assembly.blocks;
-    (0..blocks.len()).find(|&s| blocks[s].support && touches(model, s))
+    (0..blocks.len()).filter(|&s| blocks[s].support && touches(model, s)).collect()
 }
 
 /// The horizontal direction from the free blocks' centre of mass to where a support touches them:

@@ -4,9 +4,9 @@ use super::{
     args::Thrust,
     exit::Exit,
     question::{Session, unless_weaker, verdict},
-    terminal::Terminal,
+    terminal::{self, Terminal},
 };
-use voussoir::analysis::{Outcome, ThrustOptions};
+use voussoir::analysis::{Outcome, ThrustOptions, thrust::bearing_supports};
 
 pub fn run(args: &Thrust, terminal: &Terminal) -> anyhow::Result<Exit> {
     let session = Session::open(&args.common)?.drawn(&args.pictures, args.tables.csv.as_deref())?;
@@ -20,6 +20,15 @@ pub fn run(args: &Thrust, terminal: &Terminal) -> anyhow::Result<Exit> {
         range: true,
     }
     .into();
+    let supports = bearing_supports(&session.model);
+    if args.support.is_none() && args.member.is_none() && supports.len() > 1 {
+        let names = session.model.ids(&supports);
+        terminal::say(&format!(
+            "note: no support is named: the thrust is that on {}; --support names another: {}",
+            names[0],
+            names[1..].iter().take(6).cloned().collect::<Vec<_>>().join(", ")
+        ));
+    }
     let answer = session.ask(&question)?;
     let file = session.answer(terminal, session.result(&question, &answer)?)?;
     let Some(found) = file.answer.thrust() else { return Ok(verdict(file.answer.verdict())) };

@@ -83,3 +83,4 @@ mod templates;
 mod thrust;
 mod train;
 mod without;
+mod words;

@@ -408,7 +408,7 @@ fn a_stranger_changes_no_digit_of_a_tilt_or_a_thrust() {
     for (k, a) in [column(3, 0.15, 0.0, ""), model(&arch(0.2, false))].iter().enumerate() {
         let toward = Vector3::new(1.0, 0.2, 0.0);
         let alone = analysis::tilt(a, toward, &control()).unwrap();
-        let support = thrust::first_support(a).unwrap();
+        let support = thrust::bearing_supports(a)[0];
         let ends = |m: &Model, support: usize| {
             let at = ThrustAt { support, direction: [1.0, 0.0, 0.0] };
             let standing = analysis::assess(m, &control());

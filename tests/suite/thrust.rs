@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use voussoir::{
     analysis::{
         Control, Law, Outcome,
-        thrust::{Ends, answer, first_support, outwards},
+        thrust::{Ends, answer, bearing_supports, outwards},
     },
     proof::{ResultFile, saved, thrust::ThrustAnswer},
     report::{drawing, view::View},
@@ -29,8 +29,9 @@ fn ask_at(
     control: &Control,
 ) -> ResultFile {
     let m = model(scene);
-    let support =
-        support.map_or_else(|| first_support(&m), |id| m.assembly.find(id)).expect("a support");
+    let support = support
+        .map_or_else(|| bearing_supports(&m).first().copied(), |id| m.assembly.find(id))
+        .expect("a support");
     let direction = direction.unwrap_or_else(|| outwards(&m, support).expect("a direction").into());
     let file =
         saved::thrust(scene, &m, &answer(&m, ThrustAt { support, direction }, Ends::Both, control))
@@ -204,7 +205,7 @@ fn every_equilibrium_lies_in_the_range() {
     let s = arch(0.7, json!({}));
     let m = model(&s);
     let [low, high] = range(&s);
-    let support = first_support(&m).unwrap();
+    let support = bearing_supports(&m).first().copied().unwrap();
     let at = ThrustAt { support, direction: outwards(&m, support).unwrap().into() };
     let some = voussoir::analysis::assess(&m, &associative());
     let value = at.value(&m.interfaces, &some.forces);
@@ -288,7 +289,7 @@ fn drawings_hold_every_block_and_both_lines() {
     let mut s = arch(NO_SLIDING, json!({ "voussoirs": 8 }));
     s.name = "a < b & c".into();
     let m = model(&s);
-    let support = first_support(&m).unwrap();
+    let support = bearing_supports(&m).first().copied().unwrap();
     let at = ThrustAt { support, direction: outwards(&m, support).unwrap().into() };
     let file = saved::thrust(&s, &m, &answer(&m, at, Ends::Both, &associative())).unwrap();
     let text = drawing::svg(&View::new(&m, &file, Vec::new()).unwrap(), Default::default());

@@ -25,7 +25,7 @@ pub(super) fn dry(f: &mut Findings, model: &Model, forces: &Forces, rates: &[Rat
     let allowed = tolerance::DRY_BALANCE;
     f.require(
         s.equilibrium_error <= allowed,
-        format!("forces balance every free block at λ = {value}: largest equilibrium error {:.1e} g, allowed {allowed:.0e}", s.equilibrium_error),
+        format!("forces balance every free block at λ = {}: largest equilibrium error {:.1e} g, allowed {allowed:.0e}", value + 0.0, s.equilibrium_error),
     );
     let k = certificate::kinematics(model, rates, forces);
     f.require(
@@ -126,7 +126,7 @@ pub(super) fn supported(
         certificate::load_scale(assembly, i)
             .max(lower.abs() * certificate::size(assembly, i, &assembly.live[i]))
     };
-    let when = format!("at λ = {lower}, ");
+    let when = format!("at λ = {}, ", lower + 0.0);
     let left = Left::of(model, forces, lower, &scale);
     let s = certificate::statics(model, forces, lower);
     if left.is_balanced() {
