@@ -21,7 +21,9 @@ pub fn run(args: &Thrust, terminal: &Terminal) -> anyhow::Result<Exit> {
     }
     .into();
     let supports = bearing_supports(&session.model);
-    if args.support.is_none() && args.member.is_none() && supports.len() > 1 {
+    // The first line names it, too.
+    let told = args.common.quiet || args.common.json;
+    if !told && args.support.is_none() && args.member.is_none() && supports.len() > 1 {
         let names = session.model.ids(&supports);
         terminal::say(&format!(
             "note: no support is named: the thrust is that on {}; --support names another: {}",
