@@ -8,7 +8,10 @@ use super::{
     told::Told,
 };
 use anyhow::bail;
-use voussoir::{analysis::MovingOptions, report::view::positions};
+use voussoir::{
+    analysis::MovingOptions,
+    report::{tell::at_an_end, view::positions},
+};
 
 pub fn run(args: &Limit, terminal: &Terminal) -> anyhow::Result<Exit> {
     if !args.worst.is_empty() {
@@ -30,7 +33,11 @@ pub fn run(args: &Limit, terminal: &Terminal) -> anyhow::Result<Exit> {
     let film = if session.is_filmed() { positions(&session.model, &file) } else { Vec::new() };
     let file = session.answer_seen(terminal, Depicted::Scene(film), file)?;
     told.write(&file)?;
-    let exit = requirement(&file);
+    let exit = match requirement(&file) {
+        // What is worst where the path ends may be worse beyond.
+        Exit::Yes if at_an_end(&file) => Exit::Undecided,
+        exit => exit,
+    };
     Ok(unless_weaker(&file, exit))
 }
 

@@ -100,6 +100,15 @@ fn the_worst_position_is_found_between_the_steps() {
     assert!(chart.x.label.contains("the train") && chart.y.label.contains("load factor"));
 }
 
+/// A path that ends before the worst position is known says so, wherever the bridge lies.
+#[test]
+fn a_path_that_ends_too_early_is_said() {
+    for (path, ends) in [([2.5, 3.2], true), ([0.5, 6.0], false)] {
+        let file = file_of(&read(&bridge(20, axle(path, 0.35))));
+        assert_eq!(voussoir::report::tell::at_an_end(&file), ends, "{path:?}: {}", said(&file).x);
+    }
+}
+
 /// A road on a block that is not there is an error with its place, not a position without a train.
 #[test]
 fn a_road_on_a_missing_block_is_an_error() {

@@ -91,7 +91,13 @@ pub fn detect_until(
 
     detect_rims::meet(&mut pairs, &bodies);
     heaps.spread(&mut pairs, &assembly.blocks)?;
-    heaps.all().into_iter().for_each(|heap| tally.in_one_place(heap));
+    for heap in heaps.all() {
+        // Supports upon supports weigh nothing, and are counted as such.
+        let (held, free): (Vec<usize>, Vec<usize>) =
+            heap.iter().partition(|&&i| assembly.blocks[i].support);
+        let told: Vec<usize> = held.first().into_iter().chain(&free).copied().collect();
+        tally.in_one_place(&told);
+    }
     detect_rims::name_normals(&mut pairs, &normals, assembly)?;
 
     let (mut points, mut apart) = (0, Vec::new());

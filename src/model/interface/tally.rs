@@ -77,7 +77,7 @@ impl Tally {
 
     /// Blocks that are the same to the last bit.
     pub fn in_one_place(&mut self, heap: &[usize]) {
-        self.twice.extend(heap[1..].iter().map(|&again| (heap[0], again)));
+        self.twice.extend(heap.iter().skip(1).map(|&again| (heap[0], again)));
         if heap.len() > self.heap.len() {
             self.heap = heap.to_vec();
         }

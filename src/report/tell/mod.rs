@@ -20,6 +20,7 @@ mod tilt;
 mod without;
 
 pub use charts::{attempts, heaps};
+pub use moving::at_an_end;
 
 use crate::{
     ReportError,

@@ -65,17 +65,13 @@ pub(super) fn place(file: &ResultFile) -> Option<String> {
     Some(format!(" with the train at x = {}{way}", short(a.x)))
 }
 
-/// Whether the worst position is where the path ends while the train still stands on the bridge: then
-/// a worse one may lie beyond.
-fn at_an_end(file: &ResultFile) -> bool {
+/// Whether the worst position is where the path ends: then a worse one may lie beyond.
+pub fn at_an_end(file: &ResultFile) -> bool {
     let (Some(a), Some(train)) = (file.answer.moving(), &file.scene.input.train) else {
         return false;
     };
-    let near = |end: f64| (a.x - end).abs() <= 1e-9 * (train.path[1] - train.path[0]).abs();
-    // Half of a path is enough where bridge and train are their own mirror images.
-    let middle =
-        train::is_symmetric(train) && train.path.iter().any(|x| x.abs() < 1e-9 && near(*x));
-    train.path.iter().any(|x| near(*x)) && !middle
+    let length = (train.path[1] - train.path[0]).abs();
+    train.path.iter().any(|end| (a.x - end).abs() <= 1e-9 * length)
 }
 
 /// What was asked, and what was not.
