@@ -159,7 +159,7 @@ fn survives(rows: usize, tasks: usize) -> Result<(), String> {
             .output()
             .unwrap(),
     );
-    assert!(String::from_utf8_lossy(&refused.stderr).contains("sbatch refuses"));
+    assert!(String::from_utf8_lossy(&refused.stderr).contains("sbatch reports an error"));
     Ok(())
 }
 
