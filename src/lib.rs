@@ -152,9 +152,9 @@ pub mod proof {
     pub use check::proof::verify::{self};
     pub use check::proof::{
         Answer, Derived, Evidence, PackingFile, ResultFile, Run, Saved, Simulation, Verification,
-        VerificationFile, answer, certificate, compare, critical, derive, evidence, kinematic,
-        member, moving, packing, path, read, recompute, result, rocking, shaken, simulation,
-        stages, state, thrust, told, verification, without, work,
+        VerificationFile, answer, certificate, combinations, compare, critical, derive, evidence,
+        kinematic, meet, member, moving, nested, packing, path, read, recompute, result, rocking,
+        shaken, simulation, stages, state, thrust, told, verification, without, work,
     };
     pub use sweep::path as kept;
 }

@@ -4,6 +4,7 @@
 
 use super::{
     Assessment, Control, Critical, Law, LoadFactor, Outcome, Proved, Question, Tilt, assess,
+    combinations::{self, Combined},
     coulomb,
     coulomb::DryLoadFactor,
     critical,
@@ -17,6 +18,7 @@ use super::{
     kinematic::{self, Kinematic},
     ladder::side_by_side,
     limit,
+    meet::{self, Met},
     model_cache::{Keys, Reuse},
     moving::{self, Moving},
     question::{
@@ -71,6 +73,10 @@ pub enum Answer {
     Simulate(Box<SimulationOutcome>),
     /// On ground that moves: what do all blocks do?
     Shake(Box<in_time::ShakenScene>),
+    /// In every combination of actions.
+    Combinations(Box<Combined>),
+    /// Where what is required is met.
+    Meet(Box<Met>),
 }
 
 /// The answer about a live load.
@@ -224,6 +230,10 @@ fn answer(
         Question::Rock(options) => Answer::Rock(Box::new(rocking::rock(options, means.machine)?)),
         Question::Simulate(options) => (means.in_time)(&Asked::Simulate(options))?,
         Question::Shake(options) => (means.in_time)(&Asked::Shake(options))?,
+        Question::Combinations(options) => {
+            Answer::Combinations(Box::new(combinations::combined(options, scene, model, control)?))
+        }
+        Question::Meet(options) => Answer::Meet(Box::new(meet::meet(options, scene, control)?)),
     })
 }
 

@@ -102,6 +102,7 @@ pub fn again(
             require: None,
             skip_dead: true,
             linear: true,
+            verify: None,
             at: Vec::new(),
             ..o.clone()
         }),

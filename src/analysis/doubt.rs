@@ -87,6 +87,13 @@ pub fn doubt(answer: &Answer, model: &Model, control: &Control) -> Option<Doubt>
         // A path says itself where it ended, and why.
         Answer::Path(_) | Answer::Rock(_) => None,
         Answer::Simulate(outcome) => in_time(outcome),
+        Answer::Combinations(c) => {
+            let worst = c.worst()?;
+            doubt(&worst.answer, &worst.model, control)
+        }
+        Answer::Meet(m) => {
+            m.sides.iter().flatten().find_map(|p| doubt(&p.answer, &p.model, control))
+        }
         // Single histories are no verdicts.
         Answer::Shake(_) => None,
     }

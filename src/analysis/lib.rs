@@ -7,6 +7,7 @@ pub mod agreement;
 pub mod ask;
 pub mod assess;
 pub mod closing;
+mod combinations;
 pub mod coulomb;
 pub mod critical;
 pub mod critical_value;
@@ -21,6 +22,7 @@ mod in_time;
 pub mod kinematic;
 mod ladder;
 pub mod limit;
+mod meet;
 pub mod model_cache;
 pub mod moving;
 mod part_cache;
@@ -45,9 +47,10 @@ pub use ask::{Answer, Limited, Tilted, ask, ask_among, ask_on};
 pub use assess::{Assessment, assess};
 pub use check::ground::ShakeOptions;
 pub use check::question::{
-    self, AssessOptions, ControlPoint, CriticalOptions, KinematicOptions, LimitOptions,
-    MovingOptions, PushOptions, Question, ReposeOptions, SettleOptions, SimulateOptions,
-    StagesOptions, StateOptions, SupportMove, ThrustOptions, TiltOptions, WithoutOptions,
+    self, AssessOptions, CombinationsOptions, ControlPoint, CriticalOptions, KinematicOptions,
+    LimitOptions, MeetOptions, MovingOptions, PushOptions, Question, ReposeOptions, SettleOptions,
+    SimulateOptions, StagesOptions, StateOptions, SupportMove, ThrustOptions, TiltOptions,
+    WithoutOptions,
 };
 pub use check::rocking::{RockOptions, RockPoint};
 pub use check::terms::{Closed, Difference, Doubt, DoubtCause, LeftOutContacts};
@@ -56,11 +59,13 @@ pub use check::{
     verdict::fabric::{self, Fabric, fabric},
 };
 pub use closing::left_out;
+pub use combinations::{Combined, InCombination};
 pub use critical::{Critical, critical};
 pub use doubt::doubt;
 pub use kinematic::Kinematic;
 pub use ladder::Control;
 pub use limit::{LoadFactor, limit};
+pub use meet::Met;
 pub use moving::Moving;
 pub use proved::{Claims, Proved};
 pub use rocking::Rocking;

@@ -18,13 +18,14 @@ use base::{
     error::{InputError, JsonPath},
     tolerance,
 };
-use check::verdict::Verdict;
+use check::verdict::{Rate, Verdict, certificate};
 use cholesky::parallel;
 use model::{
+    assembly::Wrench,
     interface::Model,
     train::{self, Loaded, Position, Standing, Way},
 };
-use scene::Scene;
+use scene::{Scene, Train};
 use search::{Dip, Step, dips, golden_section};
 
 /// The answer about a train.
@@ -72,6 +73,17 @@ const FINEST: f64 = 1e-3;
 /// More: a state differs by less from one position to the next than it is asked below a value.
 /// Fewer: the least may lie between.
 const HALVINGS: usize = 3;
+/// Places between two steps at which the mechanisms that were found are asked what they allow there.
+/// More: sums for nothing. Fewer: a place between them may be the worst.
+const PLACES: usize = 8;
+/// So many of these mechanisms, those of the least load factors. Fewer: the one that governs between
+/// the steps may be missing.
+const MECHANISMS: usize = 24;
+/// Where a mechanism allows less than this × the least that is known, positions are asked there. Larger:
+/// positions for what brackets differ by. Smaller: a worse position passes.
+const LOWER: f64 = 1.0 - 1e-4;
+/// So often at most. More: time, for every round finds what the ones before left.
+const ROUNDS: usize = 6;
 /// Positions that are asked at once: a sweep runs several of these.
 const THREADS: usize = 2;
 
@@ -105,6 +117,17 @@ pub(super) fn moving(
     };
     let found: Vec<Stood> = each(&dips(&steps), follow)?.into_iter().flatten().collect();
     put(&mut positions, found);
+    for _ in 0..ROUNDS {
+        let Some((at, width)) = asked.lower_between(&positions, train)? else { break };
+        let mut found: Vec<Stood> = asked.bound(&at)?.into_iter().collect();
+        golden_section([at.x - width, at.x + width], FINEST * train.step, |x| {
+            let stood = asked.bound(&Position { x, ..at })?;
+            let value = stood.as_ref().and_then(|s| s.bound.found()).unwrap_or(f64::INFINITY);
+            found.extend(stood);
+            Ok::<f64, InputError>(value)
+        })?;
+        put(&mut positions, found);
+    }
     if positions.is_empty() {
         let path = JsonPath::root().key("train").key("path");
         return Err(InputError::at(path, "no position has an axle on a span")
@@ -161,6 +184,57 @@ impl Asked<'_> {
 
     fn bounds(&self, list: &[Position]) -> Result<Vec<Stood>, InputError> {
         Ok(each(list, |p| self.bound(p))?.into_iter().flatten().collect())
+    }
+
+    /// A position between those that were asked at which one of their mechanisms allows less than the
+    /// least of all, and half the distance to the next such place. A mechanism bounds the load factor
+    /// wherever the train stands: what it needs is the same everywhere, and what the train does to it
+    /// is a sum (its influence line).
+    fn lower_between(
+        &self,
+        positions: &[Stood],
+        train: &Train,
+    ) -> Result<Option<(Position, f64)>, InputError> {
+        let live = |p: Position| Ok(self.way.at(p)?.map(|l| l.model.assembly.live));
+        let power = |live: &[Wrench], rates: &[Rate]| -> f64 {
+            live.iter().zip(rates).map(|(w, r)| certificate::power(w, r)).sum()
+        };
+        let mut known: Vec<(f64, &Stood)> =
+            positions.iter().filter_map(|s| Some((s.bound.found()?, s))).collect();
+        known.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let Some(least) = known.first().map(|k| k.0).filter(|least| *least > 0.0) else {
+            return Ok(None);
+        };
+        let mut mechanisms = Vec::new();
+        for (value, stood) in known.into_iter().take(MECHANISMS) {
+            if let Some(live) = live(stood.position)? {
+                let needed = value * power(&live, &stood.bound.rates);
+                mechanisms.push((needed, &stood.bound.rates));
+            }
+        }
+        let mut worst: Option<(f64, Position, f64)> = None;
+        for pair in positions.windows(2) {
+            let [a, b] = [pair[0].position, pair[1].position];
+            // Where positions lie closer, golden section was there.
+            if a.travel != b.travel || b.x - a.x < 0.5 * train.step {
+                continue;
+            }
+            let width = (b.x - a.x) / PLACES as f64;
+            for k in 1..PLACES {
+                let at = Position { x: a.x + k as f64 * width, ..a };
+                let Some(live) = live(at)? else { continue };
+                let allowed = |(needed, rates): &(f64, &Vec<Rate>)| match power(&live, rates) {
+                    p if p > 0.0 => needed / p,
+                    _ => f64::INFINITY,
+                };
+                let value = mechanisms.iter().map(allowed).fold(f64::INFINITY, f64::min);
+                let is_lower = worst.is_none_or(|w| value < w.0);
+                if value < LOWER * least && is_lower {
+                    worst = Some((value, at, width));
+                }
+            }
+        }
+        Ok(worst.map(|(_, at, width)| (at, width)))
     }
 
     /// The value with dry friction, as far as the bound leaves something to ask.

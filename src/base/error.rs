@@ -189,6 +189,8 @@ pub enum FindingCode {
     Converted,
     /// Which values of a range are the worst, and why.
     WorstCase,
+    /// Partial factors are in force.
+    Factored,
 }
 
 impl FindingCode {
@@ -216,7 +218,9 @@ impl FindingCode {
             | Self::GapClosed
             | Self::ContactIgnored
             | Self::Flattened => false,
-            Self::Numerics | Self::LeftOut | Self::Converted | Self::WorstCase => false,
+            Self::Numerics | Self::LeftOut | Self::Converted | Self::WorstCase | Self::Factored => {
+                false
+            }
         }
     }
 }

@@ -351,6 +351,11 @@ pub const CRUSHING: f64 = 1e-7;
 /// least equilibrium error holds. Smaller: the engine's last digits (1e-11 g) decide.
 pub const CRITICAL_WIDTH: f64 = 1e-9;
 
+/// A value at which a requirement begins to be met is narrowed until the answers on both sides lie
+/// within this × its size. Larger: digits are lost. Smaller: load factors with brackets of 1e-8 no
+/// longer tell the sides apart.
+pub const MEET_WIDTH: f64 = 1e-6;
+
 /// A critical value narrowed by its margin or by halving is claimed where the verdicts on both
 /// sides are proved within this × its size; otherwise only the bracket is. Larger: a value far from
 /// the flip passes for it. Smaller: flips with a flat margin, or next to values that stay

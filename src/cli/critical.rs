@@ -3,12 +3,12 @@
 use super::{
     args::Critical as Arguments,
     exit::Exit,
-    question::{Depicted, Session, unless_weaker},
+    question::{Depicted, Session, requirement, unless_weaker},
     terminal::Terminal,
 };
 use anyhow::bail;
 use voussoir::{
-    analysis::{Answer, Critical, CriticalOptions},
+    analysis::{Answer, Critical, CriticalOptions, MeetOptions},
     number::fixed,
     proof::{critical::CriticalResult, saved},
     report::view::View,
@@ -37,6 +37,17 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
         ),
     };
     let session = Session::open(&args.common)?;
+    if let Some(ask) = args.ask {
+        let ask = Box::new(args.nested.question(Some(ask), &session)?);
+        let question =
+            MeetOptions { ask, vary: args.vary.clone(), between: [from, to], scan }.into();
+        let file =
+            session.answer(terminal, session.result(&question, &session.ask(&question)?)?)?;
+        return Ok(unless_weaker(&file, requirement(&file)));
+    }
+    if let Some(option) = args.nested.idle() {
+        bail!("{option} requires --ask");
+    }
     let question =
         CriticalOptions { law: session.law(), vary: args.vary.clone(), between: [from, to], scan }
             .into();

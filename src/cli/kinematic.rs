@@ -1,7 +1,7 @@
 //! `voussoir kinematic`
 
 use super::{
-    args::Kinematic as Arguments,
+    args::{Kinematic as Arguments, Requirement},
     exit::Exit,
     ground,
     question::{Session, requirement, unless_weaker},
@@ -9,10 +9,7 @@ use super::{
     told::Told,
 };
 use anyhow::bail;
-use voussoir::{
-    analysis::{ControlPoint, KinematicOptions},
-    proof::kinematic::Numbers,
-};
+use voussoir::analysis::{ControlPoint, KinematicOptions};
 
 pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
     let session = Session::open(&args.common)?;
@@ -23,9 +20,19 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
     if let Some(option) = args.rocking.idle() {
         bail!("{option} requires --ground or --pulse");
     }
+    let (require, site) = match args.require {
+        None => (None, None),
+        Some(Requirement::Value(v)) => (Some(v), None),
+        Some(Requirement::Site(share)) => (None, Some(share)),
+    };
+    if site.is_some() && session.scene.site.is_none() {
+        bail!("--require site: the scene has no \"site\"");
+    }
     let question = KinematicOptions {
         law: session.law(),
-        require: args.require,
+        require,
+        site,
+        verify: args.verify.map(Into::into),
         toward: args.toward.clone(),
         all: args.toward.is_empty().then_some(args.all),
         control: args.control.clone().map(|(block, point)| ControlPoint { block, point }),
@@ -39,15 +46,6 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
     let file = session.answer(terminal, session.result(&question, &answer)?)?;
     told.write(&file)?;
     let exit = requirement(&file);
-    // A site asks whether it is enough.
-    let numbers = file.answer.kinematic().map(|a| &a.numbers);
-    let ratio = numbers.and_then(|n| Some(n.demand.as_ref()?.ratio));
-    let exit = match (ratio, numbers.and_then(Numbers::least_ratio)) {
-        (Some(ratio), _) if ratio < 1.0 && exit == Exit::Yes => Exit::No,
-        // Met only because a body is drawn as several blocks.
-        (_, Some(least)) if least < 1.0 && exit == Exit::Yes => Exit::Undecided,
-        _ => exit,
-    };
     Ok(unless_weaker(&file, exit))
 }
 

@@ -11,6 +11,7 @@ use anyhow::bail;
 use voussoir::{
     analysis::MovingOptions,
     report::{tell::at_an_end, view::positions},
+    train::not_crossed,
 };
 
 pub fn run(args: &Limit, terminal: &Terminal) -> anyhow::Result<Exit> {
@@ -34,8 +35,10 @@ pub fn run(args: &Limit, terminal: &Terminal) -> anyhow::Result<Exit> {
     let file = session.answer_seen(terminal, Depicted::Scene(film), file)?;
     told.write(&file)?;
     let exit = match requirement(&file) {
-        // What is worst where the path ends may be worse beyond.
-        Exit::Yes if at_an_end(&file) => Exit::Undecided,
+        // What is worst where the path ends may be worse beyond, and so may a span that is left out.
+        Exit::Yes if at_an_end(&file) || !not_crossed(&file.scene.input).is_empty() => {
+            Exit::Undecided
+        }
         exit => exit,
     };
     Ok(unless_weaker(&file, exit))

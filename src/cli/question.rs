@@ -97,6 +97,10 @@ impl<'a> Session<'a> {
         let start = Instant::now();
         let deadline = deadline::of(common.time_limit);
         let (scene, source, said) = input::scene(&common.scene, common.outside.reach())?;
+        let scene = match &common.combination {
+            Some(name) => scene.in_combination(name).map_err(|e| source.located(e))?,
+            None => scene,
+        };
         let scene = change(scene);
         let read = start.elapsed().as_secs_f64();
         // An answer that says what is open is worth a second.
@@ -386,7 +390,7 @@ pub fn verdict(verdict: Option<Verdict>) -> Exit {
 
 /// The exit code of a load factor or an angle, by what is required of it.
 pub fn requirement(file: &ResultFile) -> Exit {
-    match holds(&file.question, &file.answer) {
+    match holds(&file.question, &file.scene.input, &file.answer) {
         Some(true) => Exit::Yes,
         Some(false) => Exit::No,
         None => Exit::Undecided,

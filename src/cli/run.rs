@@ -73,6 +73,7 @@ fn dispatch(verb: &Verb, terminal: &Terminal) -> anyhow::Result<Exit> {
         Verb::Kinematic(a) => super::kinematic::run(a, terminal),
         Verb::Stages(a) => super::stages::run(a, terminal),
         Verb::Without(a) => super::without::run(a, terminal),
+        Verb::Combinations(a) => super::combinations::run(a, terminal),
         Verb::State(a) => super::state::run(a, terminal),
         Verb::Study(a) => super::study::run(a, terminal),
         Verb::Simulate(a) => super::simulate::run(a, terminal),

@@ -7,6 +7,7 @@ use std::{
     borrow::Cow,
     collections::{BTreeMap, btree_map::Entry},
     fmt,
+    marker::PhantomData,
 };
 
 /// What blocks are made of.
@@ -21,12 +22,14 @@ pub struct Material {
     pub young: Option<f64>,
     /// Poisson's ratio, above −1 and at most 0.5; given with `young`.
     pub poisson: Option<f64>,
+    /// The action that the weight of its blocks belongs to in combinations; `dead` where absent.
+    pub action: Option<String>,
 }
 
 impl Material {
     /// A material of which nothing but its density is known, kg/m³.
     pub fn of_density(density: f64) -> Self {
-        Self { density, young: None, poisson: None }
+        Self { density, young: None, poisson: None, action: None }
     }
 }
 
@@ -205,9 +208,9 @@ pub(super) const GIVEN_TWICE: &str = "the name is given twice";
 
 /// Reads a map and refuses a name that is given twice (serde's own maps keep the last and say
 /// nothing).
-pub(super) fn distinct_names<'de, D: Deserializer<'de>>(
+pub(super) fn distinct_names<'de, D: Deserializer<'de>, V: Deserialize<'de>>(
     deserializer: D,
-) -> Result<BTreeMap<String, Material>, D::Error> {
+) -> Result<BTreeMap<String, V>, D::Error> {
     /// Stands for the value of a repeated key, so that the error lies at that key.
     struct Twice;
     impl<'de> de::DeserializeSeed<'de> for Twice {
@@ -216,9 +219,9 @@ pub(super) fn distinct_names<'de, D: Deserializer<'de>>(
             Err(de::Error::custom(GIVEN_TWICE))
         }
     }
-    struct Visitor;
-    impl<'de> de::Visitor<'de> for Visitor {
-        type Value = BTreeMap<String, Material>;
+    struct Visitor<V>(PhantomData<V>);
+    impl<'de, V: Deserialize<'de>> de::Visitor<'de> for Visitor<V> {
+        type Value = BTreeMap<String, V>;
         fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
             f.write_str("a map")
         }
@@ -235,5 +238,5 @@ pub(super) fn distinct_names<'de, D: Deserializer<'de>>(
             Ok(named)
         }
     }
-    deserializer.deserialize_map(Visitor)
+    deserializer.deserialize_map(Visitor(PhantomData))
 }

@@ -9,6 +9,7 @@
 #![warn(missing_docs)]
 
 mod block;
+mod combination;
 mod contact;
 mod explain;
 mod field;
@@ -19,8 +20,10 @@ mod joint;
 mod load;
 pub mod member;
 mod pattern;
+pub mod preset;
 mod protocol;
 mod read;
+mod require;
 mod schema;
 pub mod site;
 mod sizes;
@@ -29,11 +32,13 @@ mod stage;
 mod suggest;
 pub mod template;
 mod train;
+pub mod vehicle;
 
 #[cfg(test)]
 mod tests;
 
 pub use block::{Ball, BlockSpec, Rotation, Shape};
+pub use combination::{Combination, DEAD, Factors, LIVE, MaterialFactors};
 pub use contact::ContactSpec;
 pub use explain::Kind;
 pub use interface::InterfaceSpec;
@@ -44,6 +49,7 @@ pub use pattern::fits;
 pub use protocol::{FloorKind, GrainKind, Protocol, ProtocolKind};
 pub use read::{read_as, text};
 pub use read::{read_bytes, read_file, read_str};
+pub use require::Requirements;
 pub use schema::schema;
 pub use site::Site;
 pub use sizes::Sizes;
@@ -120,6 +126,15 @@ pub struct Scene {
     pub stages: Vec<StageSpec>,
     /// Axles that drive over the road of a bridge. `limit --moving` alone asks for them.
     pub train: Option<Train>,
+    /// Combinations of actions with their partial factors. `combinations` asks a question in each.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub combinations: Vec<Combination>,
+    /// The name of the combination in force for all questions; loads and strengths are characteristic
+    /// values where there is none.
+    pub combination: Option<String>,
+    /// What is required of answers; options of a question come before it.
+    #[serde(default, skip_serializing_if = "Requirements::is_empty")]
+    pub require: Requirements,
 }
 
 /// 9.81 m/s² downward.
@@ -145,6 +160,9 @@ impl Default for Scene {
             site: None,
             stages: Vec::new(),
             train: None,
+            combinations: Vec::new(),
+            combination: None,
+            require: Requirements::default(),
         }
     }
 }

@@ -40,6 +40,8 @@ pub struct PushingMass {
 pub struct Load {
     /// A name by which stages add and remove it.
     pub id: Option<String>,
+    /// The action that it belongs to in combinations; `dead` or `live`, as its list, where absent.
+    pub action: Option<String>,
     /// The loaded block; every free block where absent (`acceleration` and `weight` only).
     pub block: Option<String>,
     /// Force, N.
@@ -106,7 +108,7 @@ pub enum Centroid {
 
 impl Load {
     /// The load times a factor.
-    fn times(&self, factor: f64) -> Self {
+    pub(super) fn times(&self, factor: f64) -> Self {
         let scaled = |v: Option<[f64; 3]>| v.map(|v| v.map(|c| c * factor));
         let (force, moment) = (scaled(self.force), scaled(self.moment));
         let (acceleration, weight) = (scaled(self.acceleration), scaled(self.weight));
@@ -118,7 +120,9 @@ impl Loads {
     /// `factor` × the live loads as dead loads, beside the dead ones; no live load is left.
     #[must_use]
     pub fn fixed(&self, factor: f64) -> Self {
-        let added = self.live.iter().filter(|_| factor != 0.0).map(|l| l.times(factor));
+        let as_live = |l: &Load| l.action.clone().or_else(|| Some(super::LIVE.into()));
+        let added = self.live.iter().filter(|_| factor != 0.0);
+        let added = added.map(|l| Load { action: as_live(l), ..l.times(factor) });
         let dead = self.dead.iter().cloned().chain(added).collect();
         Self { dead, live: Vec::new(), masses: self.masses.clone() }
     }

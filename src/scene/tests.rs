@@ -385,8 +385,9 @@ fn scene() -> impl Strategy<Value = Scene> {
     let materials =
         prop::collection::btree_map(
             name(),
-            (number(), some(number()), some(number()))
-                .prop_map(|(density, young, poisson)| Material { density, young, poisson }),
+            (number(), some(number()), some(number())).prop_map(|(density, young, poisson)| {
+                Material { density, young, poisson, action: None }
+            }),
             list(3),
         );
     let contact =

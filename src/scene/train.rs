@@ -16,6 +16,9 @@ pub struct Train {
     pub path: [f64; 2],
     /// Distance between two positions on the way, m; the last step may be shorter.
     pub step: f64,
+    /// The action that it belongs to in combinations; `live` where absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub action: Option<String>,
 }
 
 /// An axle of a train.

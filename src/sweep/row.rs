@@ -14,7 +14,11 @@ use analysis::{
 };
 use check::{
     elastic::PathEnd,
-    proof::critical::{CriticalValue, placed},
+    proof::{
+        ResultFile,
+        answer::Quantity,
+        critical::{CriticalValue, placed},
+    },
     rocking,
     verdict::{Rate, Verdict},
 };
@@ -167,6 +171,12 @@ pub struct RowAnswer {
     pub toward: Option<[f64; 3]>,
     /// Where the train of the least load factor is, m.
     pub x: Option<f64>,
+    /// Under an earthquake: a0, m/s².
+    pub a0: Option<f64>,
+    /// The equivalent displacement at which the curve vanishes, m, where it was followed.
+    pub d0: Option<f64>,
+    /// ζ_E, the share of the earthquake of the site.
+    pub site: Option<f64>,
 }
 
 impl RowAnswer {
@@ -225,6 +235,14 @@ impl RowAnswer {
                 Some(n) => Self { value: Some(n as f64), ..Self::of(RowStatus::Found) },
                 None => Self::of(RowStatus::Undecided),
             },
+            Answer::Combinations(c) => match c.worst() {
+                Some(worst) => Self::of_answer(&worst.answer),
+                None => Self::of(RowStatus::Undecided),
+            },
+            Answer::Meet(m) => match m.first() {
+                Some(p) => Self { value: Some(p.value), ..Self::of(RowStatus::Found) },
+                None => Self::of(RowStatus::Undecided),
+            },
             Answer::State(s) => Self::of_state(s),
             Answer::Rock(r) => Self::of_rocking(r),
             Answer::Simulate(outcome) => Self::of(match outcome.fate {
@@ -238,6 +256,15 @@ impl RowAnswer {
                 ShakenFate::Moves => RowStatus::Undecided,
             }),
         }
+    }
+
+    /// The same with what follows for the site where an earthquake was asked.
+    pub fn with_site(self, file: Option<&ResultFile>) -> Self {
+        let Some(file) = file else { return self };
+        let Some(a) = file.answer.kinematic() else { return self };
+        let d0 = a.numbers.capacity.map(|c| c.d0);
+        let site = file.required.filter(|r| r.quantity == Quantity::Site).and_then(|r| r.obtained);
+        Self { a0: a.numbers.a0, d0, site, ..self }
     }
 
     /// The load factor of the path; without a live load the greatest displacement.
@@ -444,7 +471,9 @@ impl RowAnswer {
 
     /// An answer that is only a word.
     pub fn of(status: RowStatus) -> Self {
-        Self { status, value: None, lower: None, upper: None, dry: None, toward: None, x: None }
+        let (value, lower, upper) = (None, None, None);
+        let (dry, toward, x, a0, d0, site) = (None, None, None, None, None, None);
+        Self { status, value, lower, upper, dry, toward, x, a0, d0, site }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Rows → answers, on as many threads as wanted, each written as it ends.
 
 use super::{Folder, Header, Opened, Row, RowAnswer, RowStatus, RowsFile, Shard, Sweep};
-use analysis::{Control, ask_among, model_cache::Reuse};
+use analysis::{Control, Question, ask_among, model_cache::Reuse, saved};
 use base::error::RowsError;
 use cholesky::parallel;
 use solve::deadline::Deadline;
@@ -191,7 +191,9 @@ pub(super) fn answer(sweep: &Sweep, reuse: &Reuse, number: usize, deadline: Dead
         let control = Control { deadline, ..Control::default() };
         let question = sweep.question_with(&parameters)?.for_one_number();
         let answer = ask_among(&question, &scene, &model, &control, (reuse, &keys))?;
-        Ok(RowAnswer::of_answer(&answer))
+        let quake = matches!(question, Question::Kinematic(_));
+        let file = quake.then(|| saved::of(&question, &scene, &model, &answer)).transpose()?;
+        Ok(RowAnswer::of_answer(&answer).with_site(file.as_ref()))
     };
     // A mistake in the program costs one row, not the sweep.
     let (answer, error) = match catch_unwind(AssertUnwindSafe(asked)) {

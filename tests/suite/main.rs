@@ -24,6 +24,7 @@ mod bridge;
 mod browser;
 mod certificates;
 mod cli;
+mod combinations;
 mod coulomb;
 mod cracks;
 mod critical;

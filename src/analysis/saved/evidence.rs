@@ -110,6 +110,10 @@ pub(super) fn of(
         (Question::Shake(_), Answered::Shake(s)) => {
             Evidence::Shake(Box::new(shaken_answer(model, s)))
         }
+        (Question::Combinations(_), Answered::Combinations(c)) => {
+            Evidence::Combinations(c.evidence())
+        }
+        (Question::Meet(_), Answered::Meet(m)) => Evidence::Meet(m.evidence()),
         (Question::Repose(_), _) => {
             return Err(InputError::at(
                 JsonPath::root(),

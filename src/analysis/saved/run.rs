@@ -112,6 +112,16 @@ pub(super) fn of(scene: &Scene, model: &Model, answer: &Answered) -> Run {
                 together(&mut run, own);
             }
         }
+        Answered::Combinations(c) => {
+            c.list.iter().for_each(|c| together(&mut run, c.file.run.clone()));
+        }
+        Answered::Meet(m) => {
+            for probe in m.sides.iter().flatten() {
+                together(&mut run, probe.file.run.clone());
+            }
+            run.scenes = m.probes;
+            run.why.no_scene.clone_from(&m.no_scene);
+        }
         Answered::State(s) => {
             run.warnings.extend(s.joints.findings.iter().cloned());
             if s.track.is_some() || s.rest.refused().is_some() {

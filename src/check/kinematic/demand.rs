@@ -8,6 +8,7 @@ use super::{
     capacity::{LimitState, States},
     spectrum::{DAMPING, Elastic, Floor},
 };
+use crate::question::Verification;
 use scene::Site;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -48,6 +49,18 @@ pub struct Demand {
     /// What is not checked, and why.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub left_out: Vec<String>,
+}
+
+impl Demand {
+    /// The ratio of the verification that governs, the least of both where none is chosen; nothing
+    /// where it was not made.
+    pub fn governing(&self, by: Option<Verification>) -> Option<f64> {
+        match by {
+            None => Some(self.ratio),
+            Some(Verification::Linear) => Some(self.linear),
+            Some(Verification::Displacement) => self.displacement,
+        }
+    }
 }
 
 fn check(what: String, capacity: f64, demand: f64) -> Check {

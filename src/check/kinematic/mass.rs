@@ -10,7 +10,7 @@ use model::{
     interface::Model,
 };
 use nalgebra::Vector3;
-use scene::{At, Load, Scene, generate};
+use scene::{At, DEAD, Load, Scene, generate};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -95,12 +95,17 @@ fn masses(scene: &Scene, model: &Model, down: &Vector3<f64>) -> Vec<Mass> {
         weight: assembly.weight(block),
     });
     let mut all: Vec<Mass> = own.collect();
+    // A scene that was prepared has factors.
+    let factors = scene.factors().unwrap_or_default();
+    let act = |load: &Load| factors.load(load, DEAD);
     let dead = scene.loads.dead.iter().filter(|l| !l.massless && l.road.is_none());
-    all.extend(dead.flat_map(|load| rests(load, model, down)));
+    all.extend(dead.filter_map(act).flat_map(|load| rests(&load, model, down)));
     for template in &scene.templates {
         let on_road = scene.loads.dead.iter().filter(|l| !l.massless);
+        let on_road = on_road.filter_map(act);
         let spread = on_road.filter_map(|l| generate::on_road(template, l.road?, l.force?));
-        let loads = generate::loads(template).into_iter().chain(spread.flat_map(|s| s.loads));
+        let own = generate::loads(template).iter().filter_map(act).collect::<Vec<_>>();
+        let loads = own.into_iter().chain(spread.flat_map(|s| s.loads));
         all.extend(loads.flat_map(|load| rests(&load, model, down)));
     }
     all.extend(scene.loads.masses.iter().filter_map(|m| {
@@ -141,12 +146,14 @@ fn rests(load: &Load, model: &Model, down: &Vector3<f64>) -> Vec<Mass> {
             .into_iter()
             .collect(),
         (None, Some(a), _) => {
-            let of =
-                |i: usize| mass(i, Vector3::zeros(), Vector3::from(a) * assembly.blocks[i].mass);
+            let of = |i: usize| {
+                mass(i, Vector3::zeros(), Vector3::from(a) * assembly.characteristic_mass(i))
+            };
             on().into_iter().filter_map(of).collect()
         }
         (None, None, Some(w)) => {
-            let of = |i: usize| mass(i, Vector3::zeros(), Vector3::from(w) * assembly.weight(i));
+            let weight = |i: usize| assembly.characteristic_mass(i) * assembly.gravity.norm();
+            let of = |i: usize| mass(i, Vector3::zeros(), Vector3::from(w) * weight(i));
             on().into_iter().filter_map(of).collect()
         }
         (None, None, None) => Vec::new(),

@@ -1,16 +1,18 @@
 //! Answers: one value of a sum. They are derived, and never read from a file.
 
 use super::{
-    certificate::DryResult, critical::CriticalValue, kinematic::KinematicAnswer,
-    moving::MovingAnswer, path::PathAnswer, rocking::RockingAnswer, shaken::ShakenAnswer,
-    stages::StagesAnswer, state::StateAnswer, thrust::ThrustAnswer, without::WithoutAnswer,
+    certificate::DryResult, combinations::CombinationsAnswer, critical::CriticalValue,
+    kinematic::KinematicAnswer, meet::MeetAnswer, moving::MovingAnswer, path::PathAnswer,
+    rocking::RockingAnswer, shaken::ShakenAnswer, stages::StagesAnswer, state::StateAnswer,
+    thrust::ThrustAnswer, without::WithoutAnswer,
 };
 use crate::{
     elastic::PathEnd,
-    question::Question,
+    question::{KinematicOptions, Question},
     terms::{Bound, Bracket, Deciding, Fate, Found, Law, Outcome},
     verdict::{Verdict, exact::Grade},
 };
+use scene::Scene;
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_with::skip_serializing_none;
@@ -40,6 +42,10 @@ pub enum Answer {
     Rocking(Box<RockingAnswer>),
     /// On ground that moves: what all its blocks do.
     Shaken(Box<ShakenAnswer>),
+    /// In every combination of actions.
+    Combinations(Box<CombinationsAnswer>),
+    /// Where what is required is met.
+    Meet(Box<MeetAnswer>),
     /// Does it stand?
     #[serde(untagged)]
     Verdict(VerdictAnswer),
@@ -241,6 +247,8 @@ impl Answer {
             | Self::Without(_)
             | Self::Rocking(_)
             | Self::Shaken(_)
+            | Self::Combinations(_)
+            | Self::Meet(_)
             | Self::Simulation(SimulationAnswer { verdict: None, .. }) => None,
         }
     }
@@ -347,34 +355,129 @@ impl Answer {
             Self::Rocking(a) => a.proof,
             Self::State(a) => a.proof,
             Self::Without(a) => a.proof,
+            Self::Combinations(a) => a.proof,
             _ => None,
         }
     }
 }
 
-/// What was required of a load factor or, of a tilt, of an angle in degrees.
+/// What may be required.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Quantity {
+    /// A load factor λ.
+    LoadFactor,
+    /// A tilt, degrees.
+    TiltDeg,
+    /// The load factor α0 of an earthquake.
+    Alpha0,
+    /// ζ_E, the share of the earthquake of the site.
+    Site,
+}
+
+/// What was required of an answer; of several requirements the one that is met least.
 #[skip_serializing_none]
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Required {
+    /// Of what.
+    pub quantity: Quantity,
     /// The least value that is enough.
     pub least: f64,
+    /// The value that is there, where it is known.
+    pub obtained: Option<f64>,
     /// Whether it is reached; absent where that is open.
     pub met: Option<bool>,
 }
 
 impl Required {
-    /// What was required, where anything was.
-    pub(super) fn of(question: &Question, answer: &Answer) -> Option<Self> {
-        let least = question.require()?;
-        Some(Self { least, met: holds(question, answer) })
+    /// What is required, where anything is: by the question, or else by the scene.
+    pub(super) fn of(question: &Question, scene: &Scene, answer: &Answer) -> Option<Self> {
+        let own = least(question, scene).map(|(quantity, least)| {
+            let met = reaches(question, answer, Some(least));
+            let value = answer.load_factor().and_then(|l| l.value);
+            let obtained = match quantity {
+                Quantity::TiltDeg => value.map(|v| v.atan().to_degrees()),
+                _ => value,
+            };
+            Self { quantity, least, obtained, met }
+        });
+        let site = site(question, scene).map(|(o, least)| {
+            let quantity = Quantity::Site;
+            let met = and(reaches(question, answer, None), site_met(o, answer, least));
+            Self { quantity, least, obtained: share(o, answer), met }
+        });
+        own.into_iter().chain(site).min_by_key(|r| match r.met {
+            Some(false) => 0,
+            None => 1,
+            Some(true) => 2,
+        })
     }
 }
 
-/// Whether the answer to a question about a load factor or an angle is a yes: it is known, and as
-/// much as is required where anything is; `None` where that is open. A requirement inside the bracket
-/// is not decided. Where dry friction was asked for, the bound alone meets no requirement.
-pub fn holds(question: &Question, answer: &Answer) -> Option<bool> {
-    let require = question.require();
+fn and(a: Option<bool>, b: Option<bool>) -> Option<bool> {
+    match (a, b) {
+        (Some(false), _) | (_, Some(false)) => Some(false),
+        (Some(true), Some(true)) => Some(true),
+        _ => None,
+    }
+}
+
+/// The least value that is required of a question's own quantity.
+fn least(question: &Question, scene: &Scene) -> Option<(Quantity, f64)> {
+    let r = &scene.require;
+    let (quantity, usual) = match question {
+        Question::Limit(_) | Question::Moving(_) | Question::State(_) => {
+            (Quantity::LoadFactor, r.load_factor)
+        }
+        Question::Tilt(_) | Question::Repose(_) => (Quantity::TiltDeg, r.tilt_deg),
+        Question::Kinematic(_) => (Quantity::Alpha0, r.alpha_0),
+        _ => return None,
+    };
+    question.require().or(usual).map(|least| (quantity, least))
+}
+
+/// The least share of the earthquake of the site: a site asks whether it is enough.
+fn site<'a>(question: &'a Question, scene: &Scene) -> Option<(&'a KinematicOptions, f64)> {
+    let (Question::Kinematic(o), Some(_)) = (question, &scene.site) else { return None };
+    Some((o, o.site.or(scene.require.site).unwrap_or(1.0)))
+}
+
+/// The share of the earthquake of the site by the verification that governs.
+fn share(o: &KinematicOptions, answer: &Answer) -> Option<f64> {
+    answer.kinematic()?.numbers.demand.as_ref()?.governing(o.verify)
+}
+
+/// Whether the verification that governs gives this share.
+fn site_met(o: &KinematicOptions, answer: &Answer, least: f64) -> Option<bool> {
+    let numbers = &answer.kinematic()?.numbers;
+    let ratio = share(o, answer)?;
+    match numbers.of_bodies(ratio) {
+        _ if ratio < least => Some(false),
+        // Met only because a body is drawn as several blocks.
+        bodies if bodies < least => None,
+        _ => Some(true),
+    }
+}
+
+/// Whether the answer to a question is a yes: it is known, and as much as is required where anything
+/// is; `None` where that is open. A requirement inside the bracket is not decided. Where dry friction
+/// was asked for, the bound alone meets no requirement.
+pub fn holds(question: &Question, scene: &Scene, answer: &Answer) -> Option<bool> {
+    match answer {
+        Answer::Combinations(a) => return a.holds(),
+        Answer::Meet(a) if !a.changes.is_empty() => return Some(true),
+        Answer::Meet(a) => return a.throughout,
+        _ => {}
+    }
+    let own = reaches(question, answer, least(question, scene).map(|l| l.1));
+    match site(question, scene) {
+        Some((o, least)) => and(own, site_met(o, answer, least)),
+        None => own,
+    }
+}
+
+/// The same by the question's own quantity.
+fn reaches(question: &Question, answer: &Answer, require: Option<f64>) -> Option<bool> {
     if let Answer::State(a) = answer {
         return match (a.load_factor, require) {
             _ if a.verdict == Verdict::Undecided => None,

@@ -3,8 +3,9 @@
 //! computed where there is no proof. No verdicts, no sentences.
 
 use super::{
-    certificate::Certificate, kinematic::Control, rocking::RockingAnswer, shaken::ShakenAnswer,
-    simulation::Seen, without::WithoutEvidence,
+    certificate::Certificate, combinations::CombinationsEvidence, kinematic::Control,
+    meet::MeetEvidence, rocking::RockingAnswer, shaken::ShakenAnswer, simulation::Seen,
+    without::WithoutEvidence,
 };
 use crate::{
     elastic::{PathEnd, Quadrature},
@@ -52,6 +53,10 @@ pub enum Evidence {
     Simulate(SimulateEvidence),
     /// All blocks on ground that moves. Computed.
     Shake(Box<ShakenAnswer>),
+    /// In every combination of actions.
+    Combinations(CombinationsEvidence),
+    /// Where what is required is met.
+    Meet(MeetEvidence),
 }
 
 /// Of a verdict.

@@ -96,8 +96,13 @@ impl Numbers {
     /// The least ratio of what the site demands that is met, with blocks that move as one counted as
     /// one.
     pub fn least_ratio(&self) -> Option<f64> {
+        Some(self.of_bodies(self.demand.as_ref()?.ratio))
+    }
+
+    /// A ratio with blocks that move as one counted as one.
+    pub fn of_bodies(&self, ratio: f64) -> f64 {
         let share = self.participation.as_ref().and_then(Participation::share_of_bodies);
-        Some(self.demand.as_ref()?.ratio * share.unwrap_or(1.0))
+        ratio * share.unwrap_or(1.0)
     }
 }
 

@@ -4,13 +4,16 @@
 
 pub mod answer;
 pub mod certificate;
+pub mod combinations;
 pub mod compare;
 pub mod critical;
 pub mod derive;
 pub mod evidence;
 pub mod kinematic;
+pub mod meet;
 pub mod member;
 pub mod moving;
+pub mod nested;
 pub mod packing;
 pub mod path;
 pub mod read;

@@ -4,6 +4,7 @@
 use super::{
     answer::Answer,
     evidence::{ClosedEvidence, Evidence},
+    nested::Nested,
     simulation::FrameResult,
     told::{Counts, Told},
     work::Work,
@@ -145,6 +146,11 @@ impl Run {
 }
 
 impl ResultFile {
+    /// The answer with what is required of it.
+    pub fn nested(&self) -> Nested {
+        Nested { answer: self.told.answer.clone(), required: self.told.required }
+    }
+
     /// What it follows from.
     pub fn evidence(&self) -> &Evidence {
         &self.evidence

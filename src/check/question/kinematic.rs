@@ -11,6 +11,16 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_with::skip_serializing_none;
 
+/// A verification of a local mechanism (Circolare 7/2019, C8.7.1.2.1). Either may be chosen there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Verification {
+    /// By accelerations, with the behaviour factor q.
+    Linear,
+    /// By displacements, on the capacity curve.
+    Displacement,
+}
+
 /// Options of `kinematic`.
 #[skip_serializing_none]
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -20,6 +30,11 @@ pub struct KinematicOptions {
     pub law: Law,
     /// A load factor α0 below this counts as failure.
     pub require: Option<f64>,
+    /// A share ζ_E of the earthquake of the site below this counts as failure; 1 where neither this
+    /// nor the scene says more.
+    pub site: Option<f64>,
+    /// The verification that governs at the site; both where nothing is said.
+    pub verify: Option<Verification>,
     /// Earthquakes towards these directions.
     #[serde(skip_serializing_if = "Vec::is_empty", deserialize_with = "directions::several")]
     pub toward: Vec<[f64; 3]>,
@@ -53,6 +68,12 @@ impl Asked for KinematicOptions {
         if self.at.iter().any(|v| !(*v >= 0.0 && v.is_finite())) {
             return refuse("at", "must be displacements >= 0".into());
         }
+        if self.site.is_some_and(|v| !(v > 0.0 && v.is_finite())) {
+            return refuse("site", "must be a share above 0".into());
+        }
+        if self.linear && self.verify == Some(Verification::Displacement) {
+            return refuse("verify", "the linear analysis has no displacements".into());
+        }
         if self.linear && !self.at.is_empty() {
             return refuse("at", "the linear analysis has no curve".into());
         }
@@ -78,8 +99,10 @@ impl Asked for KinematicOptions {
         (!self.at.is_empty()).then_some(("at", "remove it: rows give no curve"))
     }
 
-    /// With dry friction all directions share the verdict without an earthquake.
+    /// With dry friction all directions share the verdict without an earthquake; the curve is followed
+    /// where its displacements are verified.
     fn for_one_number(self) -> Self {
-        Self { skip_dead: self.law == Law::Associative, linear: true, ..self }
+        let linear = self.verify != Some(Verification::Displacement);
+        Self { skip_dead: self.law == Law::Associative, linear, ..self }
     }
 }

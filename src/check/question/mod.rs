@@ -4,12 +4,14 @@
 
 mod asked;
 mod assess;
+mod combinations;
 mod control;
 mod critical;
 mod directions;
 mod in_time;
 mod kinematic;
 mod limit;
+mod meet;
 mod moving;
 mod push;
 mod repose;
@@ -23,11 +25,14 @@ mod without;
 
 pub use asked::{Asked, Idle};
 pub use assess::AssessOptions;
+pub use combinations::CombinationsOptions;
+pub(crate) use combinations::is_the_same;
 pub use control::ControlPoint;
 pub use critical::{CriticalOptions, SCAN, WHOLE};
 pub use directions::{DIRECTIONS, directions, spread};
-pub use kinematic::KinematicOptions;
+pub use kinematic::{KinematicOptions, Verification};
 pub use limit::LimitOptions;
+pub use meet::MeetOptions;
 pub use moving::MovingOptions;
 pub use push::PushOptions;
 pub use repose::ReposeOptions;
@@ -175,6 +180,10 @@ questions! {
     Rock(RockOptions) = "rock",
     /// What do all its blocks do on ground that moves, by the rigid-body engine? Not a proof.
     Shake(ShakeOptions) = "shake",
+    /// What is the answer to a question in every combination of actions?
+    Combinations(CombinationsOptions) = "combinations",
+    /// At what value of a number in the scene is what is required of a question met?
+    Meet(MeetOptions) = "meet",
 }
 
 impl Question {

@@ -22,6 +22,9 @@ pub struct Open {
 #[derive(Debug, Args)]
 pub struct Schema {
     /// `scene`, `plan`, `result` (of --json and --save) or `model` (of `check SCENE --json`).
+    ///
+    /// `presets` lists the partial factors of codes for "combinations", `vehicles` standard axles
+    /// for a "train", both with their sources.
     #[arg(value_enum, default_value_t = FileFormat::Scene, hide_possible_values = true)]
     pub of: FileFormat,
     /// Print tables of the keys (Markdown) in place of the schema.
@@ -35,6 +38,8 @@ pub enum FileFormat {
     Plan,
     Result,
     Model,
+    Presets,
+    Vehicles,
 }
 
 #[derive(Debug, Args)]

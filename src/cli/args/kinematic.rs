@@ -1,8 +1,8 @@
 //! Arguments of `kinematic`.
 
 use super::{
-    Common, DIRECTIONS, Rocking,
-    parse::{Written, at_least_one, control, direction, finite, output},
+    By, Common, DIRECTIONS, Requirement, Rocking,
+    parse::{Written, at_least_one, control, direction, finite, output, requirement},
 };
 use clap::Args;
 use std::path::PathBuf;
@@ -35,11 +35,17 @@ pub struct Kinematic {
     /// Linear analysis only, without the capacity curve.
     #[arg(long, conflicts_with = "at")]
     pub linear: bool,
-    /// Required α0: exit code 1 if that of the worst direction is lower, 3 if undecided.
+    /// Required α0, or `site` for the earthquake of the site, `site:0.8` for a share of it.
     ///
-    /// Unless `--law associative` is given, the α0 under dry friction must reach it too.
-    #[arg(long, value_name = "ALPHA", allow_negative_numbers = true, value_parser = finite)]
-    pub require: Option<f64>,
+    /// Exit code 1 if the worst direction has less, 3 if undecided. A site is always required;
+    /// unless `--law associative` is given, the α0 under dry friction must reach it too.
+    #[arg(long, value_name = "ALPHA|site", allow_negative_numbers = true, value_parser = requirement)]
+    pub require: Option<Requirement>,
+    /// Verification that governs at the site: `linear` or `displacement`; by default both.
+    ///
+    /// Either may be chosen (Circolare 7/2019, C8.7.1.2.1).
+    #[arg(long, value_name = "BY", value_enum, hide_possible_values = true)]
+    pub verify: Option<By>,
     /// Skip the check that it stands without an earthquake.
     #[arg(long)]
     pub skip_dead: bool,

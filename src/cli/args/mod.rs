@@ -3,6 +3,7 @@
 mod files;
 mod ground;
 mod kinematic;
+mod nested;
 mod parse;
 mod path;
 mod pictures;
@@ -16,6 +17,7 @@ mod sweep;
 pub use files::{Check, Completions, FileFormat, Generate, Import, Man, Open, Schema};
 pub use ground::{Ground, Rocking};
 pub use kinematic::Kinematic;
+pub use nested::{Ask, By, Nested, Requirement};
 pub use path::{Curve, Push, Settle};
 pub use pictures::{Pictures, Tables};
 pub use repose::{Asked, Repose};
@@ -172,6 +174,13 @@ pub enum Verb {
     /// proof. Pictures show removable blocks by colour. Exit code 0 if some block can be removed, 1
     /// if none can, 3 if undecided.
     Without(Without),
+    /// What is the answer in every combination of actions?
+    ///
+    /// The scene lists "combinations" with partial factors on its actions (named by loads, fill,
+    /// materials and train) and on strengths, written out or by a "preset" of a code. One question is
+    /// asked in each, with its own proof, and the worst governs. Exit code 0 if what is required is
+    /// met in all of them, 1 if not, 3 if undecided.
+    Combinations(Combinations),
     /// What forces and displacements follow from the stiffness of the joints?
     ///
     /// Joints with a "normal_stiffness" are springs that cannot pull. Spheres of materials with
@@ -356,9 +365,39 @@ pub struct Without {
 }
 
 #[derive(Debug, Args)]
+pub struct Combinations {
+    #[command(flatten)]
+    pub common: Common,
+    #[command(flatten)]
+    pub pictures: Pictures,
+    /// Question to ask: `assess`, `limit`, `moving`, `tilt` or `kinematic`.
+    ///
+    /// By default `moving` if the scene has a train, else `limit` if it has live loads, else
+    /// `assess`.
+    #[arg(long, value_name = "QUESTION", value_enum, hide_possible_values = true)]
+    pub ask: Option<Ask>,
+    #[command(flatten)]
+    pub nested: Nested,
+    /// Ask in this combination only; may be given several times.
+    #[arg(long, value_name = "NAME")]
+    pub only: Vec<String>,
+    /// Write the combinations to this file, one per row (CSV).
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Csv), help_heading = "Output")]
+    pub csv: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
 pub struct Critical {
     #[command(flatten)]
     pub common: Common,
+    /// Find where this question meets what is required, not where the verdict flips.
+    ///
+    /// `limit`, `moving`, `tilt` or `kinematic`, with the options below: the least thickness for a
+    /// load factor, the least strength of a tie for the earthquake of the site.
+    #[arg(long, value_name = "QUESTION", value_enum, hide_possible_values = true)]
+    pub ask: Option<Ask>,
+    #[command(flatten)]
+    pub nested: Nested,
     /// JSON pointer of the number to vary.
     #[arg(long, value_name = "POINTER")]
     pub vary: String,
@@ -431,6 +470,9 @@ pub struct Common {
     /// Exit code 3 if that bracket decides nothing.
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = positive, help_heading = "Solver and limits")]
     pub time_limit: Option<f64>,
+    /// Put this combination of the scene into force: its factors on loads and strengths.
+    #[arg(long, value_name = "NAME")]
+    pub combination: Option<String>,
     #[command(flatten)]
     pub outside: Outside,
     /// Print lists in full, and every attempt of the solver.

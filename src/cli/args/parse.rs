@@ -7,6 +7,18 @@ use std::{
 };
 use voussoir::{analysis::SupportMove, ground::Pulse, import::Up, scene::Friction};
 
+/// `site`, `site:0.8` or a number: what is required.
+pub fn requirement(text: &str) -> Result<super::Requirement, String> {
+    match text.strip_prefix("site") {
+        Some("") => Ok(super::Requirement::Site(1.0)),
+        Some(share) => match share.strip_prefix(':').map(positive) {
+            Some(Ok(share)) => Ok(super::Requirement::Site(share)),
+            _ => Err("write `site`, or `site:0.8` for a share of it".into()),
+        },
+        None => finite(text).map(super::Requirement::Value),
+    }
+}
+
 /// What an output option writes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Written {

@@ -1,7 +1,7 @@
 //! How joints resist.
 
 use super::Block;
-use scene::Friction;
+use scene::{Friction, MaterialFactors};
 
 /// The law of one joint. Stresses act on the area that touches; forces at the corners of an
 /// interface count with the corner's share of the area.
@@ -53,6 +53,22 @@ impl JointLaw {
     /// force.
     pub fn friction_only(&self) -> bool {
         Self { rolling_arm: 0.0, ..*self }.is_dry()
+    }
+
+    /// The same law with its strengths divided by partial factors. Pressures and arms are none.
+    #[must_use]
+    pub fn divided(&self, by: &MaterialFactors) -> Self {
+        let friction = match self.friction {
+            Friction::Coefficient(mu) => Friction::Coefficient(mu / by.friction.unwrap_or(1.0)),
+            Friction::Infinite => Friction::Infinite,
+        };
+        Self {
+            friction,
+            cohesion: self.cohesion / by.cohesion.unwrap_or(1.0),
+            tension: self.tension / by.tension.unwrap_or(1.0),
+            compression: self.compression / by.compression.unwrap_or(1.0),
+            ..*self
+        }
     }
 
     /// The same law with every stress multiplied.

@@ -215,6 +215,24 @@ pub enum MemberPlan {
     Dowel(DowelPlan),
 }
 
+impl MemberPlan {
+    /// The same with its strength divided by a partial factor; what it was stressed with stays, as
+    /// far as it is carried.
+    #[must_use]
+    pub fn divided(&self, by: Option<f64>) -> Self {
+        let by = by.unwrap_or(1.0);
+        match self.clone() {
+            Self::Whole(m) => {
+                let (least, greatest) = (m.least / by, m.greatest / by);
+                let prestress = m.prestress.clamp(least, greatest);
+                Self::Whole(Member { least, greatest, prestress, ..m })
+            }
+            Self::Strip(s) => Self::Strip(StripPlan { strength: s.strength / by, ..s }),
+            Self::Dowel(d) => Self::Dowel(DowelPlan { strength: d.strength / by, ..d }),
+        }
+    }
+}
+
 /// A strip before the joints between its blocks are known.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StripPlan {

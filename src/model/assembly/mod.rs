@@ -28,7 +28,7 @@ pub use stage::{AskedStages, Placed, Stage};
 
 use base::error::{Finding, JsonPath};
 use nalgebra::{Matrix3, Vector3};
-use scene::ContactSpec;
+use scene::{ContactSpec, MaterialFactors};
 
 /// Everything the mechanics needs to know.
 #[derive(Clone, Debug)]
@@ -75,8 +75,10 @@ pub struct Block {
     pub material: Option<String>,
     /// How its material yields where it touches at points, where that is known.
     pub elastic: Option<Elastic>,
-    /// Mass, kg.
+    /// Mass, kg; with the factor of its weight.
     pub mass: f64,
+    /// Partial factor on its weight by the combination in force; 1 where there is none.
+    pub factor: f64,
     /// Centre of mass, m.
     pub centroid: Vector3<f64>,
     /// Inertia about the centre of mass, kg·m².
@@ -227,6 +229,16 @@ impl Assembly {
         loaded
     }
 
+    /// Divides the strengths of its joints by partial factors.
+    fn divide_joints(&mut self, by: &MaterialFactors) {
+        let rules = &mut self.joints;
+        let ruled = rules.default.iter_mut().chain(rules.by_blocks.values_mut());
+        let ruled = ruled.chain(rules.by_material.iter_mut().map(|(_, law)| law));
+        for law in ruled.chain(self.given.iter_mut().map(|g| &mut g.law)) {
+            *law = law.divided(by);
+        }
+    }
+
     /// Indices of the free blocks.
     pub fn free(&self) -> impl Iterator<Item = usize> + '_ {
         (0..self.blocks.len()).filter(|&i| !self.blocks[i].support)
@@ -235,6 +247,11 @@ impl Assembly {
     /// The weight of a block, N: its mass times the strength of gravity.
     pub fn weight(&self, block: usize) -> f64 {
         self.blocks[block].mass * self.gravity.norm()
+    }
+
+    /// The mass of a block without any partial factor, kg.
+    pub fn characteristic_mass(&self, block: usize) -> f64 {
+        self.blocks[block].mass / self.blocks[block].factor
     }
 
     /// The weight of a block as a load about its centre of mass; zero on supports. `dead` minus

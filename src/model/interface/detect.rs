@@ -198,14 +198,23 @@ fn law(assembly: &Assembly, a: usize, b: usize) -> Result<JointLaw, InputError> 
 impl Interfaces {
     /// The interfaces of an assembly that differs from the one they were [detected](detect) in by
     /// its joints, loads, masses and gravity alone: where blocks touch is kept, how they resist is
-    /// that of `assembly`. Interfaces given by hand keep their law.
+    /// that of `assembly`.
     ///
     /// # Errors
     /// As [`detect`].
     pub fn with_joints_of(&self, assembly: &Assembly) -> Result<Self, InputError> {
         let mut interfaces = self.clone();
-        for interface in interfaces.list.iter_mut().filter(|i| i.kind != ContactKind::Given) {
-            interface.law = law(assembly, interface.a, interface.b)?;
+        // Those given by hand stand in the order of the scene.
+        let mut given = assembly.given.iter();
+        for interface in &mut interfaces.list {
+            let [a, b] = [interface.a, interface.b];
+            interface.law = match interface.kind {
+                ContactKind::Given => match given.find(|g| [g.a, g.b] == [a, b]) {
+                    Some(own) => own.law,
+                    None => interface.law,
+                },
+                _ => law(assembly, a, b)?,
+            };
         }
         // What the joints of strips have to say was said where they were detected.
         interfaces.join(assembly)?;

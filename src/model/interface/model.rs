@@ -55,6 +55,17 @@ impl Model {
         model
     }
 
+    /// The model of a scene that differs from that of this one in joints, loads and masses alone:
+    /// where blocks touch is known.
+    ///
+    /// # Errors
+    /// The scene cannot be resolved.
+    pub fn alike(&self, scene: &Scene) -> Result<Self, InputError> {
+        let assembly = assembly::resolve(scene)?;
+        let interfaces = self.interfaces.with_joints_of(&assembly)?;
+        Ok(Self::new(assembly, interfaces))
+    }
+
     /// The same contacts under the dead load and this multiple of the live load, which no longer
     /// varies.
     #[must_use]

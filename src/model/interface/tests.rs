@@ -127,6 +127,7 @@ fn assembly(shapes: &[Shape]) -> Assembly {
                 material: None,
                 elastic: None,
                 mass: 1.0,
+                factor: 1.0,
                 centroid: V::zeros(),
                 gyration: Gyration::new(&Matrix3::identity(), 1.0),
                 inertia: Matrix3::identity(),

@@ -12,7 +12,7 @@ use crate::{
 };
 use base::error::{InputError, JsonPath};
 use nalgebra::Vector3;
-use scene::{At, Axle, AxleForce, OnRoad, Scene, Train, generate::Road};
+use scene::{At, Axle, AxleForce, LIVE, OnRoad, Scene, Train, generate::Road};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -105,6 +105,33 @@ pub fn positions(train: &Train) -> Vec<Position> {
         .collect()
 }
 
+/// The spans of the bridges of a scene from left to right: both springings of each, x, m.
+pub fn spans(scene: &Scene) -> Vec<[f64; 2]> {
+    let roads = scene.templates.iter().filter_map(Road::of);
+    let mut list: Vec<[f64; 2]> = roads.flat_map(|r| r.spans().collect::<Vec<_>>()).collect();
+    list.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    list
+}
+
+/// The spans over no half of which an axle of the train is driven, from a springing to the middle, by
+/// their number from 1, with their springings: a worse position may lie there. A half is enough where
+/// bridge and train are symmetric.
+pub fn not_crossed(scene: &Scene) -> Vec<(usize, [f64; 2])> {
+    let Some(train) = &scene.train else { return Vec::new() };
+    let [from, to] = train.path;
+    let crosses = |[left, right]: [f64; 2]| {
+        let middle = 0.5 * (left + right);
+        let signs = travels(train).iter().map(|t| t.sign());
+        let mut ways = signs.flat_map(|sign| train.axles.iter().map(move |a| sign * a.at));
+        ways.any(|at| {
+            let (from, to) = (from + at, to + at);
+            (from <= left && middle <= to) || (from <= middle && right <= to)
+        })
+    };
+    let list = spans(scene).into_iter().enumerate();
+    list.filter(|(_, span)| !crosses(*span)).map(|(k, span)| (k + 1, span)).collect()
+}
+
 /// The force of an axle along gravity, N; the part of a vector along it.
 pub fn force(axle: &Axle, down: &Vector3<f64>) -> f64 {
     match axle.force {
@@ -129,6 +156,8 @@ pub struct Way<'a> {
     model: &'a Model,
     roads: Vec<Road>,
     down: Vector3<f64>,
+    /// Partial factor of its action.
+    factor: f64,
 }
 
 impl<'a> Way<'a> {
@@ -136,7 +165,9 @@ impl<'a> Way<'a> {
     pub fn of(scene: &'a Scene, model: &'a Model) -> Option<Self> {
         let train = scene.train.as_ref()?;
         let roads = scene.templates.iter().filter_map(Road::of).collect();
-        Some(Self { train, model, roads, down: model.assembly.gravity.normalize() })
+        // A scene that was prepared has factors.
+        let factor = scene.factors().ok()?.of(train.action.as_deref(), LIVE);
+        Some(Self { train, model, roads, down: model.assembly.gravity.normalize(), factor })
     }
 
     /// The scene with its train at a position; nothing where no axle presses on a block that may
@@ -152,7 +183,7 @@ impl<'a> Way<'a> {
         for (k, axle) in self.train.axles.iter().enumerate() {
             let x = position.x + position.travel.sign() * axle.at;
             let on = OnRoad { x, patch: axle.patch, across: axle.across };
-            let whole = force(axle, &self.down);
+            let whole = force(axle, &self.down) * self.factor;
             let push = (self.down * whole).into();
             let Some(spread) = self.roads.iter().find_map(|r| r.under(on, push)) else { continue };
             for load in &spread.loads {

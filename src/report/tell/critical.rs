@@ -43,7 +43,7 @@ fn verb(v: Verdict) -> &'static str {
 }
 
 /// The last word of a pointer that is no number.
-fn name(pointer: &str) -> &str {
+pub(super) fn name(pointer: &str) -> &str {
     let mut words = pointer.rsplit('/');
     words.find(|w| w.parse::<usize>().is_err()).filter(|w| !w.is_empty()).unwrap_or(pointer)
 }

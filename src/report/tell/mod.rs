@@ -3,10 +3,12 @@
 
 mod assess;
 mod charts;
+mod combinations;
 mod critical;
 mod factor;
 mod kinematic;
 mod limit;
+mod meet;
 mod moving;
 pub mod path;
 mod rocking;
@@ -32,7 +34,14 @@ use crate::{
     },
 };
 use base::{error::FindingCode, number::short};
-use check::{proof::result::ResultFile, question::QuestionKind};
+use check::{
+    proof::{
+        Answer,
+        answer::{Quantity, Required},
+        result::ResultFile,
+    },
+    question::QuestionKind,
+};
 use telling::{Telling, look};
 
 /// How the answers to the question of a result are told.
@@ -53,6 +62,8 @@ pub(crate) fn telling(file: &ResultFile) -> &'static Telling {
         QuestionKind::State => &state::TELLING,
         QuestionKind::Rock => &rocking::TELLING,
         QuestionKind::Shake => &shaken::TELLING,
+        QuestionKind::Combinations => &combinations::TELLING,
+        QuestionKind::Meet => &meet::TELLING,
     }
 }
 
@@ -117,18 +128,22 @@ pub(crate) fn title(page: &mut Page, file: &ResultFile) {
 
 /// What was required, and whether it is there.
 fn required(file: &ResultFile) -> Option<String> {
-    let required = file.required?;
-    let unit = match file.question.kind() {
-        QuestionKind::Tilt | QuestionKind::Repose => "°",
-        _ => "",
+    file.required.map(words_of)
+}
+
+/// What was required, and whether it is there, in words.
+fn words_of(required: Required) -> String {
+    let what = match required.quantity {
+        Quantity::LoadFactor | Quantity::Alpha0 => short(required.least),
+        Quantity::TiltDeg => format!("{}°", short(required.least)),
+        Quantity::Site => format!("ζ_E {}", short(required.least)),
     };
-    let least = short(required.least);
     let met = match required.met {
         Some(true) => "met",
         Some(false) => "not met",
         None => "undecided",
     };
-    Some(format!("required {least}{unit}: {met}"))
+    format!("required {what}: {met}")
 }
 
 /// What an answer rests on where edges and corners meet with several normals. Why one is undecided
@@ -165,6 +180,7 @@ pub(crate) fn next(file: &ResultFile, scene: &str, again: &str) -> Vec<(String, 
     let seen = matches!(file.question.kind(), QuestionKind::Simulate | QuestionKind::Shake);
     let known = file.critical.is_some()
         || file.thrust.is_some()
+        || matches!(file.answer, Answer::Meet(_))
         || file.stages.is_some()
         || file.answer.proof().is_some()
         || file.answer.path().is_some_and(|a| a.value.is_some());

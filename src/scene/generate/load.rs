@@ -38,6 +38,11 @@ impl Road {
         Some(Self { surface: bridge::Surface::of(t)?, prefix: prefix.into(), at })
     }
 
+    /// Both springings of the intrados of every span, x in the scene, m.
+    pub fn spans(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
+        self.surface.spans.iter().map(|s| s.map(|x| x + self.at[0]))
+    }
+
     /// What a force on the road does to the template; nothing where it has no road there.
     pub fn under(&self, on: OnRoad, force: [f64; 3]) -> Option<Spread> {
         let spread = self.surface.spread(OnRoad { x: on.x - self.at[0], ..on }, force);

@@ -123,6 +123,9 @@ pub struct Fill {
     /// Weight of both parapets per metre of the bridge, N/m.
     #[serde(default, skip_serializing_if = "super::is_zero")]
     pub parapets: f64,
+    /// The action that its weight, with backing as fill and parapets, belongs to in combinations;
+    /// `dead` where absent.
+    pub action: Option<String>,
 }
 
 /// How a load that has spread through the fill presses on the extrados.

@@ -128,6 +128,14 @@ impl Template {
         own != Some(false)
     }
 
+    /// The action of the fill of a bridge.
+    pub(super) fn fill_action(&self) -> Option<&str> {
+        match self {
+            Template::Bridge(b) => b.fill.as_ref()?.action.as_deref(),
+            _ => None,
+        }
+    }
+
     /// The key of this template in a scene file.
     pub fn name(&self) -> &'static str {
         match self {

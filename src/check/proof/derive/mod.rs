@@ -12,12 +12,12 @@ pub(super) use part::deciding;
 
 use super::{
     certificate::Certificate,
-    critical,
+    combinations, critical,
     evidence::{
         AssessEvidence, ClosedEvidence, Evidence, LimitEvidence, SimulateEvidence, Standing,
         TiltEvidence,
     },
-    kinematic, moving, path,
+    kinematic, meet, moving, path,
     recompute::Recompute,
     result::{ResultFile, Run, SceneSummary},
     rocking, shaken, stages, state, thrust,
@@ -125,7 +125,7 @@ pub fn derive(
     if matches!(&told.answer, Answer::Verdict(v) if v.verdict == Verdict::Stable) {
         told.in_balance = model.ids(&interface::in_balance(model));
     }
-    told.required = Required::of(&question, &told.answer);
+    told.required = Required::of(&question, scene, &told.answer);
     told.scene_warnings = model.own_findings().cloned().collect();
     let check = own.check;
     let name = scene.name.clone();
@@ -136,7 +136,7 @@ pub fn derive(
 }
 
 impl Derivation<'_> {
-    fn told(&mut self, evidence: &Evidence) -> Result<Told, String> {
+    pub(super) fn told(&mut self, evidence: &Evidence) -> Result<Told, String> {
         match (self.question, evidence) {
             (Question::Assess(_), Evidence::Assess(e)) => self.assess(e),
             (Question::Limit(o), Evidence::Limit(e)) => self.limit(o, e),
@@ -154,6 +154,10 @@ impl Derivation<'_> {
             (Question::State(o), Evidence::State(e)) => state::derive(self, o, e),
             (Question::Rock(o), Evidence::Rock(e)) => rocking::derive(self, o, e),
             (Question::Shake(o), Evidence::Shake(e)) => shaken::derive(self, o, e),
+            (Question::Combinations(o), Evidence::Combinations(e)) => {
+                combinations::derive(self, o, e)
+            }
+            (Question::Meet(o), Evidence::Meet(e)) => meet::derive(self, o, e),
             _ => {
                 Err(format!("the evidence does not answer the question `{}`", self.question.word()))
             }

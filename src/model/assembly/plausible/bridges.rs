@@ -1,7 +1,7 @@
 //! The numbers of bridges: lengths in millimetres or centimetres, axles in kilonewtons.
 
 use super::{is_on_earth, short};
-use crate::assembly::Assembly;
+use crate::{assembly::Assembly, train};
 use scene::{Scene, Template};
 
 /// Clear spans of masonry arches, m: the longest of all, at Danhe, has 146. Below, a drain.
@@ -14,6 +14,21 @@ const RING: f64 = 1.0;
 const THINNEST: f64 = 0.05;
 /// An axle on a road or a rail, N: a cart has 1,000, the heaviest wagon 400,000. Below, kN are meant.
 const AXLE: f64 = 1000.0;
+
+/// A train that leaves a span out.
+pub(super) fn not_crossed(scene: &Scene) -> Option<String> {
+    let missed = train::not_crossed(scene);
+    let spans = missed
+        .iter()
+        .map(|(k, [left, right])| format!("span {k} (x = {} to {})", short(*left), short(*right)));
+    let spans: Vec<String> = spans.collect();
+    (!spans.is_empty()).then(|| {
+        format!(
+            "train.path: no axle is driven over {}, and a lower load factor may lie there. Extend the path",
+            spans.join(", ")
+        )
+    })
+}
 
 /// What looks like a mistake in a bridge.
 pub(super) fn mistakes(scene: &Scene, assembly: &Assembly) -> Vec<String> {

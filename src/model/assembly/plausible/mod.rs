@@ -35,6 +35,7 @@ pub(super) fn mistakes(scene: &Scene, assembly: &Assembly) -> Vec<Finding> {
         .chain(
             loads::mistakes(scene, assembly)
                 .into_iter()
+                .chain(bridges::not_crossed(scene))
                 .map(|text| Finding::new(FindingCode::Loads, text)),
         )
         .collect()

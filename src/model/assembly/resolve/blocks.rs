@@ -179,6 +179,7 @@ fn block(
         material: spec.material.clone(),
         elastic,
         mass,
+        factor: 1.0,
         centroid,
         gyration: Gyration::new(&inertia, mass),
         inertia,

@@ -9,7 +9,7 @@ use crate::assembly::{AppliedForce, Assembly, Wrench, plausible};
 use base::error::{Finding, FindingCode, InputError, JsonPath};
 use nalgebra::Vector3;
 use scene::{
-    At, Load, OnRoad, PushingMass, Scene,
+    At, DEAD, LIVE, Load, OnRoad, PushingMass, Scene,
     generate::{self, Spread},
 };
 
@@ -38,18 +38,21 @@ pub(super) fn resolve(
     names: &Names,
 ) -> Result<Resolved, InputError> {
     let path = JsonPath::root().key("loads");
+    let factors = scene.factors()?;
     let mut dead: Vec<Wrench> =
         (0..assembly.blocks.len()).map(|i| assembly.self_weight(i)).collect();
     let mut live = vec![Wrench::zero(); assembly.blocks.len()];
     let (mut dead_forces, mut live_forces) = (Vec::new(), Vec::new());
     let mut findings = Vec::new();
     for (key, loads, sum, forces) in [
-        ("dead", &scene.loads.dead, &mut dead, &mut dead_forces),
-        ("live", &scene.loads.live, &mut live, &mut live_forces),
+        (DEAD, &scene.loads.dead, &mut dead, &mut dead_forces),
+        (LIVE, &scene.loads.live, &mut live, &mut live_forces),
     ] {
         for (i, load) in loads.iter().enumerate() {
             let path = path.key(key).index(i);
-            massless(load, key == "live", assembly, &path)?;
+            massless(load, key == LIVE, assembly, &path)?;
+            // What does not act is checked all the same.
+            let factor = factors.of(load.action.as_deref(), key);
             if let Some(on) = load.road {
                 let spread = on_road(load, on, scene, assembly, &path)?;
                 if spread.beside > BESIDE {
@@ -62,17 +65,18 @@ pub(super) fn resolve(
                     ));
                 }
                 for part in spread.loads {
-                    forces.extend(add(&part, assembly, names, sum, &path)?);
+                    forces.extend(add((&part, factor), assembly, names, sum, &path)?);
                 }
                 continue;
             }
-            forces.extend(add(load, assembly, names, sum, &path)?);
+            forces.extend(add((load, factor), assembly, names, sum, &path)?);
         }
     }
     for (k, template) in scene.templates.iter().enumerate() {
         let path = JsonPath::root().key("templates").index(k);
         for load in generate::loads(template) {
-            dead_forces.extend(add(&load, assembly, names, &mut dead, &path)?);
+            let factor = factors.of(load.action.as_deref(), DEAD);
+            dead_forces.extend(add((&load, factor), assembly, names, &mut dead, &path)?);
         }
     }
     for (i, mass) in scene.loads.masses.iter().enumerate() {
@@ -181,9 +185,9 @@ fn on_road(
     })
 }
 
-/// Adds one load to `sum`; returns its force where that acts off the centre of mass.
+/// Adds a factor × one load to `sum`; returns its force where that acts off the centre of mass.
 fn add(
-    load: &Load,
+    (load, factor): (&Load, f64),
     assembly: &Assembly,
     names: &Names,
     sum: &mut [Wrench],
@@ -245,7 +249,7 @@ fn add(
             return Err(InputError::at(path.clone(), "the force or moment has no block to act on")
                 .hint("add \"block\": id"));
         };
-        let force = force.unwrap_or_default();
+        let force = force.unwrap_or_default() * factor;
         let arm = match load.at {
             None | Some(At::Centroid(_)) => Vector3::zeros(),
             Some(At::Point(point)) => {
@@ -254,14 +258,16 @@ fn add(
                 point - assembly.blocks[i].centroid
             }
         };
-        sum[i] += Wrench { force, moment: moment.unwrap_or_default() + arm.cross(&force) };
-        return Ok((arm != Vector3::zeros()).then_some(AppliedForce { block: i, force, arm }));
+        sum[i] += Wrench { force, moment: moment.unwrap_or_default() * factor + arm.cross(&force) };
+        let is_eccentric = arm != Vector3::zeros() && factor != 0.0;
+        return Ok(is_eccentric.then_some(AppliedForce { block: i, force, arm }));
     }
     let loaded: Vec<usize> = block.map_or_else(|| assembly.free().collect(), |i| vec![i]);
     for i in loaded {
         // Exactly one of the two is there.
-        let by_acceleration = acceleration.map(|a| a * assembly.blocks[i].mass);
-        let by_weight = weight.map(|w| w * assembly.weight(i));
+        let mass = assembly.characteristic_mass(i) * factor;
+        let by_acceleration = acceleration.map(|a| a * mass);
+        let by_weight = weight.map(|w| w * (mass * assembly.gravity.norm()));
         sum[i] += Wrench {
             force: by_acceleration.or(by_weight).unwrap_or_default(),
             moment: Vector3::zeros(),

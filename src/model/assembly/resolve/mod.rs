@@ -7,6 +7,7 @@
 
 mod blocks;
 mod check;
+mod combinations;
 mod given;
 mod joints;
 mod loads;
@@ -22,7 +23,7 @@ mod train;
 mod tests;
 
 use super::{Assembly, Block, plausible};
-use base::error::{Finding, InputError, JsonPath};
+use base::error::{Finding, FindingCode, InputError, JsonPath};
 use nalgebra::Vector3;
 use scene::{Scene, suggest};
 use std::collections::HashMap;
@@ -78,7 +79,13 @@ pub fn resolve_with(scene: &Scene, blocks: Blocks) -> Result<Assembly, InputErro
     site::resolve(scene.site.as_ref(), &root.key("site"))?;
     train::resolve(scene, gravity, &root.key("train"))?;
 
-    let Blocks { list: blocks, findings } = blocks;
+    let Blocks { list: mut blocks, findings } = blocks;
+    let factors = combinations::resolve(scene)?;
+    for block in &mut blocks {
+        block.factor = factors.weight(scene, block.material.as_deref());
+        block.mass *= block.factor;
+        block.inertia *= block.factor;
+    }
     let names = Names::new(&blocks)?;
     if blocks.is_empty() {
         return Err(InputError::at(root, "the scene has no blocks")
@@ -118,14 +125,23 @@ pub fn resolve_with(scene: &Scene, blocks: Blocks) -> Result<Assembly, InputErro
     let (given, told) = given::resolve(scene, &assembly, &names)?;
     let loads = loads::resolve(scene, &assembly, &names)?;
     assembly.given = given;
+    assembly.divide_joints(&factors.materials);
     (assembly.dead, assembly.live) = (loads.dead, loads.live);
     (assembly.dead_forces, assembly.live_forces) = (loads.dead_forces, loads.live_forces);
     assembly.findings.extend(told);
     assembly.findings.extend(loads.findings);
     let (members, told) = members::resolve(scene, &assembly, &names)?;
-    assembly.members = members;
+    assembly.members = members.iter().map(|m| m.divided(factors.materials.members)).collect();
     assembly.findings.extend(told);
     stages(scene, &assembly)?;
+    if let Some(name) = &scene.combination {
+        let source = match factors.source.as_str() {
+            "" => String::new(),
+            source => format!(" ({source})"),
+        };
+        let text = format!("combination {name:?} is in force: {}{source}", factors.words());
+        assembly.findings.push(Finding::new(FindingCode::Factored, text));
+    }
     let mistakes = plausible::mistakes(scene, &assembly);
     assembly.findings.extend(mistakes);
     Ok(assembly)

@@ -218,6 +218,7 @@ fn block(block: &Block, units: &Units) -> Block {
         material: None,
         elastic: None,
         mass: block.mass * density,
+        factor: block.factor,
         centroid: units.place(&block.centroid),
         inertia: block.inertia * density / length / length,
         gyration: block.gyration.in_units(length),

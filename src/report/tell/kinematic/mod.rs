@@ -22,6 +22,7 @@ use check::{
         result::ResultFile,
         told::Direction,
     },
+    question::{Question, Verification},
     terms::{Law, Outcome},
     verdict::claim::Claim,
 };
@@ -38,6 +39,7 @@ pub(super) const TELLING: Telling = Telling {
     title,
     why: |page, file| {
         why(page, file);
+        site(page, file);
         factor::dry(page, file, ALPHA);
         factor::dead_load(page, file, ALPHA);
     },
@@ -127,14 +129,44 @@ pub(super) fn title(file: &ResultFile) -> (String, Role) {
         if share.is_some() {
             text += &format!("; block by block: {}", meets(1.0));
         }
-        let least = a.numbers.least_ratio().unwrap_or(d.ratio);
-        role = match () {
-            () if d.ratio < 1.0 || role == Role::Bad => Role::Bad,
-            () if least < 1.0 => Role::Unsure,
-            () => Role::Good,
-        };
+        role = if role == Role::Bad { Role::Bad } else { Role::Good };
     }
     (text, role)
+}
+
+/// What of the earthquake of the site is borne, in a sentence that names the verification.
+fn site(page: &mut Page, file: &ResultFile) {
+    let (Question::Kinematic(o), Some(a)) = (&file.question, file.answer.kinematic()) else {
+        return;
+    };
+    let (Some(d), Some(site)) = (&a.numbers.demand, &file.scene.input.site) else { return };
+    let Some(share) = d.governing(o.verify) else {
+        page.paragraph("The verification by displacements was asked for, and there is no curve that it could be made on.");
+        return;
+    };
+    let share = a.numbers.of_bodies(share);
+    let by_displacement = d.displacement.is_some_and(|least| least < d.linear);
+    let (by, chosen) = match o.verify {
+        Some(Verification::Linear) => ("linear verification", "as chosen"),
+        Some(Verification::Displacement) => ("verification by displacements", "as chosen"),
+        None if by_displacement => {
+            ("verification by displacements", "the lesser of both; --verify chooses one")
+        }
+        None => (
+            "linear verification",
+            if d.displacement.is_some() {
+                "the lesser of both; --verify chooses one"
+            } else {
+                "the only one made"
+            },
+        ),
+    };
+    page.paragraph(&format!(
+        "The {by} governs ({chosen}; Circolare 7/2019, C8.7.1.2.1): the mechanism bears ζ_E = {} of the earthquake of the site, a peak acceleration on rock of {} m/s² of a_g = {} m/s² (SLV).",
+        rounded_down(share),
+        rounded_down(share * site.slv.a_g),
+        short(site.slv.a_g)
+    ));
 }
 
 /// The sentences below it.

@@ -36,7 +36,12 @@ pub(super) const TELLING: Telling = Telling {
             true => ("; that is an end of its path: extend the path", Role::Unsure),
             false => ("", role),
         };
-        (text + &place(file).unwrap_or_default() + end, role)
+        let missed: Vec<String> = train::not_crossed(&file.scene.input)
+            .iter()
+            .map(|(k, _)| format!("; span {k} is not driven over: extend the path"))
+            .collect();
+        let role = if missed.is_empty() { role } else { Role::Unsure };
+        (text + &place(file).unwrap_or_default() + end + &missed.concat(), role)
     },
     why: |page, file| {
         why(page, file);
@@ -62,7 +67,26 @@ pub(super) fn place(file: &ResultFile) -> Option<String> {
         true => String::new(),
         false => format!(" {}", a.travel.words()),
     };
-    Some(format!(" with the train at x = {}{way}", short(a.x)))
+    let on = on_span(file, a).map(|words| format!(" ({words})"));
+    Some(format!(" with the train at x = {}{way}{}", short(a.x), on.unwrap_or_default()))
+}
+
+/// On which span its heaviest axle stands, and where.
+fn on_span(file: &ResultFile, a: &MovingAnswer) -> Option<String> {
+    let spans = train::spans(&file.scene.input);
+    let load = |s: &train::Standing| s.force * s.share;
+    // Of axles that press alike the first.
+    let heavier = |a: train::Standing, b: &train::Standing| if load(b) > load(&a) { *b } else { a };
+    let (first, rest) = a.axles.split_first()?;
+    let axle = rest.iter().fold(*first, heavier);
+    let k = spans.iter().position(|[left, right]| *left <= axle.x && axle.x <= *right)?;
+    let which = if file.scene.input.train.as_ref()?.axles.len() > 1 {
+        format!("axle {} ", axle.axle + 1)
+    } else {
+        String::new()
+    };
+    let span = if spans.len() > 1 { format!("on span {}, ", k + 1) } else { String::new() };
+    Some(format!("{which}{span}{} m from its left springing", short(axle.x - spans[k][0])))
 }
 
 /// Whether the worst position is where the path ends: then a worse one may lie beyond.

@@ -174,7 +174,8 @@ pub fn loads(bridge: &Bridge) -> Vec<Load> {
     };
     let each = list.iter();
     let strips = each.clone().filter_map(strip).chain(each.clone().filter_map(backed));
-    strips.chain(each.filter_map(parapet)).collect()
+    let own = |load: Load| Load { action: fill.action.clone(), ..load };
+    strips.chain(each.filter_map(parapet)).map(own).collect()
 }
 
 /// The area between a chord and a level above it (at most the road), and the x of its centroid.
@@ -289,6 +290,8 @@ pub struct Surface {
     /// The road, how far a load spreads per metre of depth, and how it is distributed there.
     fill: Option<(Road, f64, Distribution)>,
     width: f64,
+    /// Both springings of the intrados of every span, x, m.
+    pub spans: Vec<[f64; 2]>,
 }
 
 impl Surface {
@@ -300,6 +303,11 @@ impl Surface {
             chords: chords(bridge, &plan, masonry.as_ref()),
             fill: bridge.fill.as_ref().map(road),
             width: bridge.width,
+            spans: plan
+                .spans
+                .iter()
+                .map(|s| [-0.5, 0.5].map(|k| s.center + k * s.clear_span))
+                .collect(),
         })
     }
 
