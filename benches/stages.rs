@@ -11,7 +11,7 @@ use criterion::{
 use std::{hint::black_box, ops::ControlFlow, process::Command, time::Duration};
 use voussoir::{
     analysis::{
-        self, Control, Law, Limited,
+        self, CombinationsOptions, Control, Law, LimitOptions, Limited, Question,
         follow::machine::{MachineOptions, machine},
     },
     assembly,
@@ -85,6 +85,43 @@ fn stages(c: &mut Criterion) {
         let limited = Limited { bound: answer, dry: None, dead: None };
         group.bench_function(BenchmarkId::new("result file", blocks), |b| {
             b.iter(|| saved::load_factor(&scene, model, &limited).unwrap())
+        });
+    }
+    group.finish();
+}
+
+/// A live load on two spans of 20 voussoirs in one combination of actions, and in forty.
+fn combinations(c: &mut Criterion) {
+    let mut group = c.benchmark_group("combinations");
+    group
+        .sample_size(10)
+        .warm_up_time(Duration::from_millis(300))
+        .measurement_time(Duration::from_secs(3));
+    for count in [1, 40] {
+        let list: Vec<String> = (0..count)
+            .map(|k| {
+                let factor = 1.0 + 0.01 * f64::from(k);
+                format!(r#"{{ "name": "c{k}", "factors": {{ "dead": {factor}, "live": 1.35 }} }}"#)
+            })
+            .collect();
+        let span = r#"{ "clear_span": 6, "rise": 1.5, "thickness": 0.45, "voussoirs": 20 }"#;
+        let text = format!(
+            r#"{{ "format": "voussoir-scene/1", "joints": {{ "default": {{ "friction": 0.6 }} }},
+            "materials": {{ "stone": {{ "density": 2200 }} }},
+            "templates": [ {{ "bridge": {{ "material": "stone", "width": 1, "spans": [{span}, {span}],
+                "piers": [ {{ "width": 1.5, "height": 3 }} ], "fill": {{ "cover": 0.3, "unit_weight": 18000 }} }} }} ],
+            "loads": {{ "live": [ {{ "road": {{ "x": -4.5 }}, "force": [0, 0, -50000] }} ] }},
+            "combinations": [ {} ] }}"#,
+            list.join(", ")
+        );
+        let scene = read_str("bench", text).expect("the bench scene is well formed").0;
+        let ask = Box::new(LimitOptions::default().into());
+        let question = Question::from(CombinationsOptions { ask, only: Vec::new() });
+        group.bench_function(BenchmarkId::new("bridge", count), |b| {
+            b.iter(|| {
+                let model = interface::prepare(&scene).expect("the bench scene resolves");
+                analysis::ask(&question, &scene, &model, &Control::default()).unwrap()
+            })
         });
     }
     group.finish();
@@ -274,5 +311,5 @@ fn rocks(c: &mut Criterion) {
     });
 }
 
-criterion_group!(benches, stages, figures, walls, large, steps, rocks);
+criterion_group!(benches, stages, combinations, figures, walls, large, steps, rocks);
 criterion_main!(benches);

@@ -3,109 +3,33 @@
 //! variant of [`Question`] and one of [`Answer`].
 
 use super::{
-    Assessment, Control, Critical, Law, LoadFactor, Outcome, Proved, Question, Tilt, assess,
-    combinations::{self, Combined},
-    coulomb,
-    coulomb::DryLoadFactor,
-    critical,
+    Control, Law, Outcome, Question,
+    answer::{Answer, Limited, Tilted},
+    assess, combinations, coulomb, critical,
     directions::Tilts,
     follow,
     follow::{
-        answer::{Followed, GoesOn},
+        answer::GoesOn,
         machine::{Built, MachineOptions, machine},
     },
     in_time::{self, Asked},
-    kinematic::{self, Kinematic},
+    kinematic,
     ladder::side_by_side,
-    limit,
-    meet::{self, Met},
+    limit, meet,
     model_cache::{Keys, Reuse},
-    moving::{self, Moving},
+    moving,
     question::{
         CriticalOptions, LimitOptions, ReposeOptions, ThrustOptions, TiltOptions, directions,
     },
-    rocking::{self, Rocking},
-    stability,
-    stability::Packing,
-    stages::{self, Stages},
-    state::{self, Stated},
-    thrust,
+    rocking, stability, stages, state, thrust,
     thrust::Thrust,
-    without::{self, Without},
+    without,
 };
 use base::error::{InputError, JsonPath};
 use cholesky::parallel::both;
-use dynamics::SimulationOutcome;
 use model::{assembly::Wrench, interface::Model};
 use scene::Scene;
 use std::sync::Arc;
-
-/// An answer.
-#[derive(Clone, Debug)]
-pub enum Answer {
-    /// Does it stand?
-    Assess(Proved<Assessment>),
-    /// How large may the live load grow?
-    Limit(Box<Limited>),
-    /// How heavy may a train be?
-    Moving(Box<Moving>),
-    /// At what tilt does it fall?
-    Tilt(Tilted),
-    /// Where does the verdict flip?
-    Critical(Box<Critical>),
-    /// How hard does it push a support?
-    Thrust(Box<Thrust>),
-    /// How steep may a packing be?
-    Repose(Packing),
-    /// How far does it go, and what holds it on the way?
-    Path(Box<Followed>),
-    /// Under an earthquake: at what acceleration does it start to move?
-    Kinematic(Box<Kinematic>),
-    /// Does every stage of its construction stand?
-    Stages(Box<Stages>),
-    /// Which single blocks may be taken out?
-    Without(Box<Without>),
-    /// What follows from the stiffness of its joints?
-    State(Box<Stated>),
-    /// On ground that moves: what does its mechanism do?
-    Rock(Box<Rocking>),
-    /// What happens in time?
-    Simulate(Box<SimulationOutcome>),
-    /// On ground that moves: what do all blocks do?
-    Shake(Box<in_time::ShakenScene>),
-    /// In every combination of actions.
-    Combinations(Box<Combined>),
-    /// Where what is required is met.
-    Meet(Box<Met>),
-}
-
-/// The answer about a live load.
-#[derive(Clone, Debug)]
-pub struct Limited {
-    /// The bound: joints open as they slide.
-    pub bound: Proved<LoadFactor>,
-    /// With dry friction, where that was asked and the bound has a value or no limit.
-    pub dry: Option<Proved<DryLoadFactor>>,
-    /// Whether it stands under its dead load alone, where that was asked and is not settled by the
-    /// bound.
-    pub dead: Option<Proved<Assessment>>,
-}
-
-impl From<Proved<LoadFactor>> for Limited {
-    /// The bound alone.
-    fn from(bound: Proved<LoadFactor>) -> Self {
-        Self { bound, dry: None, dead: None }
-    }
-}
-
-/// The answer about tilts.
-#[derive(Clone, Debug)]
-pub struct Tilted {
-    /// One a direction, in the order in which they were asked; at least one.
-    pub directions: Vec<Tilt>,
-    /// Whether it stands level, where that was asked.
-    pub level: Option<Proved<Assessment>>,
-}
 
 /// Answers a question about a scene, prepared as `model`.
 ///
@@ -230,10 +154,12 @@ fn answer(
         Question::Rock(options) => Answer::Rock(Box::new(rocking::rock(options, means.machine)?)),
         Question::Simulate(options) => (means.in_time)(&Asked::Simulate(options))?,
         Question::Shake(options) => (means.in_time)(&Asked::Shake(options))?,
-        Question::Combinations(options) => {
-            Answer::Combinations(Box::new(combinations::combined(options, scene, model, control)?))
+        Question::Combinations(options) => Answer::Combinations(Box::new(combinations::combined(
+            options, scene, model, control, ask,
+        )?)),
+        Question::Meet(options) => {
+            Answer::Meet(Box::new(meet::meet(options, scene, control, ask)?))
         }
-        Question::Meet(options) => Answer::Meet(Box::new(meet::meet(options, scene, control)?)),
     })
 }
 

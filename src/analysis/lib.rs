@@ -4,6 +4,7 @@
 #![warn(missing_docs)]
 
 pub mod agreement;
+pub mod answer;
 pub mod ask;
 pub mod assess;
 pub mod closing;
@@ -43,7 +44,8 @@ mod warm_start;
 mod without;
 
 pub use agreement::agreement;
-pub use ask::{Answer, Limited, Tilted, ask, ask_among, ask_on};
+pub use answer::{Answer, Combined, InCombination, Limited, Met, Probe, Tilted};
+pub use ask::{ask, ask_among, ask_on};
 pub use assess::{Assessment, assess};
 pub use check::ground::ShakeOptions;
 pub use check::question::{
@@ -59,13 +61,11 @@ pub use check::{
     verdict::fabric::{self, Fabric, fabric},
 };
 pub use closing::left_out;
-pub use combinations::{Combined, InCombination};
 pub use critical::{Critical, critical};
 pub use doubt::doubt;
 pub use kinematic::Kinematic;
 pub use ladder::Control;
 pub use limit::{LoadFactor, limit};
-pub use meet::Met;
 pub use moving::Moving;
 pub use proved::{Claims, Proved};
 pub use rocking::Rocking;

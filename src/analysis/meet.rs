@@ -4,66 +4,18 @@
 //! the change is narrowed by what each obtains beyond it (regula falsi with halvings, so that both ends
 //! close in). Every end is an answer with its own proof.
 
-use super::{Answer, Control, ask, saved};
+use super::{
+    Control,
+    answer::{Door, Met, Probe},
+    saved,
+};
 use base::{
     error::{InputError, JsonPath},
     tolerance,
 };
-use check::{
-    proof::{
-        ResultFile,
-        meet::{MeetEvidence, MeetPoint, MeetSide},
-        nested::NestedEvidence,
-    },
-    question::MeetOptions,
-};
-use model::interface::{Model, prepare_until};
+use check::{proof::meet::MeetPoint, question::MeetOptions};
+use model::interface::prepare_until;
 use scene::Scene;
-
-/// The answer of `meet`.
-#[derive(Clone, Debug)]
-pub struct Met {
-    /// The scan, as far as it went.
-    pub scan: Vec<MeetPoint>,
-    /// Both sides of every change, the lower value first; without one the ends of the range, where
-    /// there are scenes.
-    pub sides: Vec<[Probe; 2]>,
-    /// Why values of the scan make no scene.
-    pub no_scene: Vec<(f64, String)>,
-    /// Scenes asked.
-    pub probes: usize,
-}
-
-/// The answer at a value.
-#[derive(Clone, Debug)]
-pub struct Probe {
-    /// The value.
-    pub value: f64,
-    /// The scene there, prepared.
-    pub model: Model,
-    /// The answer.
-    pub answer: Answer,
-    /// The same as it is told.
-    pub file: ResultFile,
-}
-
-impl Probe {
-    /// Whether what is required is met.
-    pub fn met(&self) -> Option<bool> {
-        self.file.nested().holds()
-    }
-
-    /// What is obtained beyond what is required.
-    fn beyond(&self) -> Option<f64> {
-        let required = self.file.required?;
-        Some(required.obtained? - required.least)
-    }
-
-    fn point(&self) -> MeetPoint {
-        let obtained = self.file.required.and_then(|r| r.obtained);
-        MeetPoint { value: self.value, met: self.met(), obtained }
-    }
-}
 
 /// Scenes asked to narrow a change. A well-behaved one takes some eight, halving some twenty.
 const MOST: usize = 40;
@@ -81,7 +33,12 @@ type Ask<'a> = dyn FnMut(f64) -> Result<Probe, InputError> + 'a;
 ///
 /// # Errors
 /// The pointer names no number, or no value of the scan makes a scene with an answer.
-pub(super) fn meet(o: &MeetOptions, scene: &Scene, control: &Control) -> Result<Met, InputError> {
+pub(super) fn meet(
+    o: &MeetOptions,
+    scene: &Scene,
+    control: &Control,
+    door: Door,
+) -> Result<Met, InputError> {
     let range = o.range();
     let [from, to] = o.between;
     scene.with_field(&o.vary, from).or_else(|e| scene.with_field(&o.vary, to).map_err(|_| e))?;
@@ -94,7 +51,7 @@ pub(super) fn meet(o: &MeetOptions, scene: &Scene, control: &Control) -> Result<
         probes += 1;
         let scene = scene.with_field(&o.vary, value)?;
         let model = prepare_until(&scene, &|| control.deadline.is_over())?;
-        let answer = ask(&o.ask, &scene, &model, control)?;
+        let answer = door(&o.ask, &scene, &model, control)?;
         let file = saved::of(&o.ask, &scene, &model, &answer)?;
         Ok(Probe { value, model, answer, file })
     };
@@ -165,26 +122,4 @@ fn narrow(mut a: Probe, mut b: Probe, whole: bool, ask: &mut Ask) -> [Probe; 2] 
         }
     }
     [a, b]
-}
-
-impl Met {
-    /// What it is derived from.
-    pub(super) fn evidence(&self) -> MeetEvidence {
-        let one = |p: &Probe| MeetSide {
-            value: p.value,
-            own: NestedEvidence {
-                question: p.file.question.clone(),
-                evidence: p.file.evidence().clone(),
-            },
-        };
-        MeetEvidence {
-            scan: self.scan.clone(),
-            sides: self.sides.iter().map(|[a, b]| [one(a), one(b)]).collect(),
-        }
-    }
-
-    /// The side of the first change at which what is required is met.
-    pub fn first(&self) -> Option<&Probe> {
-        self.sides.first()?.iter().find(|p| p.met() == Some(true))
-    }
 }

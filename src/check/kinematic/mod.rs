@@ -33,6 +33,4 @@ pub use participation::{Participation, STILL, Share, control_point, same_motion,
 pub use spectrum::{DAMPING, Elastic, Floor};
 pub use tells::{Unique, is_unique};
 
-/// The factor of confidence where nothing is said: that of the least level of knowledge (Circolare,
-/// C8.5.4), which is due where crushing is not in the model.
-pub const CONFIDENCE: f64 = 1.35;
+pub use crate::question::CONFIDENCE;

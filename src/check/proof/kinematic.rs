@@ -15,7 +15,7 @@ use crate::{
         same_motion, way_of, without_members,
     },
     path::Drive,
-    question::{KinematicOptions, directions},
+    question::{CONFIDENCE, KinematicOptions, directions},
     terms::{Deciding, Found, Outcome},
     verdict::{Rate, Verdict, claim::Findings, evidence::read_rates, exact::Grade},
 };
@@ -184,9 +184,6 @@ fn governing(direction: &Direction) -> f64 {
         && direction.answer.bound().is_some_and(|b| b.status == Outcome::Unbounded);
     a0.unwrap_or(if free { f64::INFINITY } else { f64::NEG_INFINITY })
 }
-
-/// Factor of confidence where nothing is said.
-pub const CONFIDENCE: f64 = 1.35;
 
 /// An earthquake, direction by direction, the worst first, with its curve: what follows from the
 /// mechanism, the curve and the site is arithmetic.

@@ -96,7 +96,7 @@ pub(crate) fn is_the_same(asked: &Question, said: &Question, gravity: Vector3<f6
             Question::Tilt(o) => toward(&mut o.toward, &mut o.all),
             Question::Kinematic(KinematicOptions { toward: to, all, fc, .. }) => {
                 toward(to, all);
-                fc.get_or_insert(crate::proof::kinematic::CONFIDENCE);
+                fc.get_or_insert(super::CONFIDENCE);
             }
             _ => {}
         }

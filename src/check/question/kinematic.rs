@@ -11,6 +11,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_with::skip_serializing_none;
 
+/// The factor of confidence where nothing is said: that of the least level of knowledge (Circolare,
+/// C8.5.4), which is due where crushing is not in the model.
+pub const CONFIDENCE: f64 = 1.35;
+
 /// A verification of a local mechanism (Circolare 7/2019, C8.7.1.2.1). Either may be chosen there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]

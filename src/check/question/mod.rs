@@ -30,7 +30,7 @@ pub(crate) use combinations::is_the_same;
 pub use control::ControlPoint;
 pub use critical::{CriticalOptions, SCAN, WHOLE};
 pub use directions::{DIRECTIONS, directions, spread};
-pub use kinematic::{KinematicOptions, Verification};
+pub use kinematic::{CONFIDENCE, KinematicOptions, Verification};
 pub use limit::LimitOptions;
 pub use meet::MeetOptions;
 pub use moving::MovingOptions;

@@ -1,8 +1,8 @@
 //! Arguments of `kinematic`.
 
 use super::{
-    By, Common, DIRECTIONS, Requirement, Rocking,
-    parse::{Written, at_least_one, control, direction, finite, output, requirement},
+    By, Common, DIRECTIONS, Rocking,
+    parse::{Requirement, Written, at_least_one, control, direction, finite, output, requirement},
 };
 use clap::Args;
 use std::path::PathBuf;

@@ -1,6 +1,6 @@
 //! A question that is asked of several scenes: its word, and the options that it takes there.
 
-use super::parse::{direction, requirement};
+use super::parse::{Requirement, direction, requirement};
 use clap::{Args, ValueEnum};
 
 /// The questions that may be asked.
@@ -11,15 +11,6 @@ pub enum Ask {
     Moving,
     Tilt,
     Kinematic,
-}
-
-/// What is required of an answer.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Requirement {
-    /// At least this value.
-    Value(f64),
-    /// This share of the earthquake of the site.
-    Site(f64),
 }
 
 #[derive(Debug, Args)]

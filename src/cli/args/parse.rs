@@ -7,15 +7,24 @@ use std::{
 };
 use voussoir::{analysis::SupportMove, ground::Pulse, import::Up, scene::Friction};
 
+/// What is required of an answer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Requirement {
+    /// At least this value.
+    Value(f64),
+    /// This share of the earthquake of the site.
+    Site(f64),
+}
+
 /// `site`, `site:0.8` or a number: what is required.
-pub fn requirement(text: &str) -> Result<super::Requirement, String> {
+pub fn requirement(text: &str) -> Result<Requirement, String> {
     match text.strip_prefix("site") {
-        Some("") => Ok(super::Requirement::Site(1.0)),
+        Some("") => Ok(Requirement::Site(1.0)),
         Some(share) => match share.strip_prefix(':').map(positive) {
-            Some(Ok(share)) => Ok(super::Requirement::Site(share)),
+            Some(Ok(share)) => Ok(Requirement::Site(share)),
             _ => Err("write `site`, or `site:0.8` for a share of it".into()),
         },
-        None => finite(text).map(super::Requirement::Value),
+        None => finite(text).map(Requirement::Value),
     }
 }
 

@@ -113,20 +113,17 @@ pub fn spans(scene: &Scene) -> Vec<[f64; 2]> {
     list
 }
 
-/// The spans over no half of which an axle of the train is driven, from a springing to the middle, by
-/// their number from 1, with their springings: a worse position may lie there. A half is enough where
-/// bridge and train are symmetric.
+/// The spans at neither quarter point of which any axle of the train ever stands, by their number from
+/// 1, with their springings: a worse position may lie there. One of the two is enough where bridge and
+/// train are symmetric.
 pub fn not_crossed(scene: &Scene) -> Vec<(usize, [f64; 2])> {
     let Some(train) = &scene.train else { return Vec::new() };
     let [from, to] = train.path;
     let crosses = |[left, right]: [f64; 2]| {
-        let middle = 0.5 * (left + right);
+        let quarters = [0.25, 0.75].map(|share| left + share * (right - left));
         let signs = travels(train).iter().map(|t| t.sign());
         let mut ways = signs.flat_map(|sign| train.axles.iter().map(move |a| sign * a.at));
-        ways.any(|at| {
-            let (from, to) = (from + at, to + at);
-            (from <= left && middle <= to) || (from <= middle && right <= to)
-        })
+        ways.any(|at| quarters.iter().any(|x| (from + at..=to + at).contains(x)))
     };
     let list = spans(scene).into_iter().enumerate();
     list.filter(|(_, span)| !crosses(*span)).map(|(k, span)| (k + 1, span)).collect()

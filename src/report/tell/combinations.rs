@@ -1,9 +1,6 @@
 //! Answers in every combination of actions, for people.
 
-use super::{
-    telling::{PLAIN, Telling},
-    words_of,
-};
+use super::telling::{PLAIN, Telling, words_of};
 use crate::{
     ReportError,
     cells::{Cell, Table},

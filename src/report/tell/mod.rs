@@ -33,16 +33,12 @@ use crate::{
         page::{Page, Role},
     },
 };
-use base::{error::FindingCode, number::short};
+use base::error::FindingCode;
 use check::{
-    proof::{
-        Answer,
-        answer::{Quantity, Required},
-        result::ResultFile,
-    },
+    proof::{Answer, result::ResultFile},
     question::QuestionKind,
 };
-use telling::{Telling, look};
+use telling::{Telling, look, words_of};
 
 /// How the answers to the question of a result are told.
 pub(crate) fn telling(file: &ResultFile) -> &'static Telling {
@@ -129,21 +125,6 @@ pub(crate) fn title(page: &mut Page, file: &ResultFile) {
 /// What was required, and whether it is there.
 fn required(file: &ResultFile) -> Option<String> {
     file.required.map(words_of)
-}
-
-/// What was required, and whether it is there, in words.
-fn words_of(required: Required) -> String {
-    let what = match required.quantity {
-        Quantity::LoadFactor | Quantity::Alpha0 => short(required.least),
-        Quantity::TiltDeg => format!("{}°", short(required.least)),
-        Quantity::Site => format!("ζ_E {}", short(required.least)),
-    };
-    let met = match required.met {
-        Some(true) => "met",
-        Some(false) => "not met",
-        None => "undecided",
-    };
-    format!("required {what}: {met}")
 }
 
 /// What an answer rests on where edges and corners meet with several normals. Why one is undecided

@@ -8,7 +8,11 @@ use crate::{
         page::{Page, Role},
     },
 };
-use check::proof::result::ResultFile;
+use base::number::short;
+use check::proof::{
+    answer::{Quantity, Required},
+    result::ResultFile,
+};
 
 /// Makes a table.
 type Csv = fn(&ResultFile) -> Result<String, ReportError>;
@@ -70,4 +74,19 @@ pub(super) fn keep(again: &str) -> [(String, &'static str); 2] {
         (format!("{again} --save result.json"), "save the answer with its proof"),
         ("voussoir check result.json".into(), "verify it from the scene alone"),
     ]
+}
+
+/// What was required, and whether it is there, in words.
+pub(super) fn words_of(required: Required) -> String {
+    let what = match required.quantity {
+        Quantity::LoadFactor | Quantity::Alpha0 => short(required.least),
+        Quantity::TiltDeg => format!("{}°", short(required.least)),
+        Quantity::Site => format!("ζ_E {}", short(required.least)),
+    };
+    let met = match required.met {
+        Some(true) => "met",
+        Some(false) => "not met",
+        None => "undecided",
+    };
+    format!("required {what}: {met}")
 }

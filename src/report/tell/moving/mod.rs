@@ -80,13 +80,11 @@ fn on_span(file: &ResultFile, a: &MovingAnswer) -> Option<String> {
     let (first, rest) = a.axles.split_first()?;
     let axle = rest.iter().fold(*first, heavier);
     let k = spans.iter().position(|[left, right]| *left <= axle.x && axle.x <= *right)?;
-    let which = if file.scene.input.train.as_ref()?.axles.len() > 1 {
-        format!("axle {} ", axle.axle + 1)
-    } else {
-        String::new()
-    };
-    let span = if spans.len() > 1 { format!("on span {}, ", k + 1) } else { String::new() };
-    Some(format!("{which}{span}{} m from its left springing", short(axle.x - spans[k][0])))
+    let several = file.scene.input.train.as_ref()?.axles.len() > 1;
+    let which = several.then(|| format!("axle {}", axle.axle + 1));
+    let span = (spans.len() > 1).then(|| format!("span {}", k + 1));
+    let place = format!("{} m from the left springing", short(axle.x - spans[k][0]));
+    Some(which.into_iter().chain(span).chain([place]).collect::<Vec<_>>().join(", "))
 }
 
 /// Whether the worst position is where the path ends: then a worse one may lie beyond.
