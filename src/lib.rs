@@ -153,8 +153,8 @@ pub mod proof {
     pub use check::proof::{
         Answer, Derived, Evidence, PackingFile, ResultFile, Run, Saved, Simulation, Verification,
         VerificationFile, answer, certificate, combinations, compare, critical, derive, evidence,
-        kinematic, meet, member, moving, nested, packing, path, read, recompute, result, rocking,
-        shaken, simulation, stages, state, thrust, told, verification, without, work,
+        kinematic, meet, member, moving, packing, path, read, recompute, result, rocking, shaken,
+        simulation, stages, state, thrust, told, verification, without, work,
     };
     pub use sweep::path as kept;
 }

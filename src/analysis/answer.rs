@@ -9,8 +9,8 @@ use base::error::InputError;
 use check::proof::{
     ResultFile,
     combinations::CombinationsEvidence,
+    evidence::NestedEvidence,
     meet::{MeetEvidence, MeetPoint, MeetSide},
-    nested::NestedEvidence,
 };
 use dynamics::SimulationOutcome;
 use model::interface::Model;

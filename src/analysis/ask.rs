@@ -147,7 +147,7 @@ fn answer(
             Answer::Kinematic(Box::new(kinematic::kinematic(options, scene, model, control)?))
         }
         Question::Stages(options) => {
-            Answer::Stages(Box::new(stages::stages(options, scene, model, control)?))
+            Answer::Stages(Box::new(stages::stages(options, scene, model, control, ask)?))
         }
         Question::Without(_) => Answer::Without(Box::new(without::without(scene, model, control)?)),
         Question::State(options) => Answer::State(Box::new(state::state(options, model, control)?)),

@@ -4,7 +4,7 @@
 use super::{
     Control,
     answer::{Combined, Door, InCombination},
-    saved,
+    saved::of,
 };
 use base::error::{InputError, JsonPath};
 use check::{proof::combinations, question::CombinationsOptions};
@@ -31,7 +31,7 @@ pub fn combined(
         let scene = scene.in_combination(&name)?;
         let model = model.alike(&scene)?;
         let answer = ask(&question, &scene, &model, control)?;
-        let file = saved::of(&question, &scene, &model, &answer)?;
+        let file = of(&question, &scene, &model, &answer)?;
         Ok(InCombination { name, model, answer, file })
     });
     let threads = |e| InputError::at(JsonPath::root(), format!("threads cannot be started: {e}"));

@@ -70,7 +70,7 @@ pub use moving::Moving;
 pub use proved::{Claims, Proved};
 pub use rocking::Rocking;
 pub use stability::{Packing, Stability, stability};
-pub use stages::{Stages, stages};
+pub use stages::Stages;
 pub use tilt::{Tilt, tilt};
 pub use without::{Left, Without};
 pub use {

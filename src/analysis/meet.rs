@@ -7,7 +7,7 @@
 use super::{
     Control,
     answer::{Door, Met, Probe},
-    saved,
+    saved::of,
 };
 use base::{
     error::{InputError, JsonPath},
@@ -52,7 +52,7 @@ pub(super) fn meet(
         let scene = scene.with_field(&o.vary, value)?;
         let model = prepare_until(&scene, &|| control.deadline.is_over())?;
         let answer = door(&o.ask, &scene, &model, control)?;
-        let file = saved::of(&o.ask, &scene, &model, &answer)?;
+        let file = of(&o.ask, &scene, &model, &answer)?;
         Ok(Probe { value, model, answer, file })
     };
     let (mut scan, mut sides, mut no_scene) = (Vec::new(), Vec::new(), Vec::new());

@@ -13,7 +13,9 @@ mod order;
 use check::question::{MOST_TRIES, StagesOptions};
 
 use super::{
-    Answer, Assessment, Control, LimitOptions, Proved, Question, TiltOptions, ask, doubt,
+    Answer, Assessment, Control, LimitOptions, Proved, Question, TiltOptions,
+    answer::Door,
+    doubt,
     part_cache::Known,
     thrust::{ThrustEnd, level, outwards, thrust},
 };
@@ -70,11 +72,12 @@ pub struct Staged {
 ///
 /// # Errors
 /// The scene has no stages, or one of them means nothing.
-pub fn stages(
+pub(super) fn stages(
     options: &StagesOptions,
     scene: &Scene,
     model: &Model,
     control: &Control,
+    door: Door,
 ) -> Result<Stages, InputError> {
     let known = Known::default();
     let order = match options.has_order() {
@@ -87,7 +90,7 @@ pub fn stages(
     };
     let list = assembly::asked_stages(asked, scene, &model.assembly)?;
     let answered = parallel::try_map(0, &list, |stage| {
-        staged(options, scene, (model, stage), &known, control)
+        staged(options, scene, (model, stage), &known, (control, door))
     });
     let stages = answered.map_err(|e| {
         InputError::at(JsonPath::root(), format!("threads cannot be started: {e}"))
@@ -135,7 +138,7 @@ fn staged(
     scene: &Scene,
     (whole, stage): (&Model, &Stage),
     known: &Known,
-    control: &Control,
+    (control, door): (&Control, Door),
 ) -> Result<Staged, InputError> {
     let model = at_stage(scene, whole, stage)?;
     let verdict = known.assess(&model, control);
@@ -144,7 +147,7 @@ fn staged(
     let asked = stands && !only_verdict;
     let no_margin = if asked { no_tilt(&model) } else { None };
     let margin = (asked && no_margin.is_none())
-        .then(|| margin(options, scene, &model, control))
+        .then(|| margin(options, scene, &model, (control, door)))
         .transpose()?;
     let held = match stands && !options.skip_held {
         true => held(whole, &model, stage, &verdict, control),
@@ -160,7 +163,7 @@ fn margin(
     options: &StagesOptions,
     scene: &Scene,
     model: &Model,
-    control: &Control,
+    (control, door): (&Control, Door),
 ) -> Result<Answer, InputError> {
     let law = options.law;
     let question = match model.assembly.live.iter().any(|w| *w != Wrench::zero()) {
@@ -173,7 +176,7 @@ fn margin(
             skip_dead: true,
         }),
     };
-    ask(&question, scene, model, control)
+    door(&question, scene, model, control)
 }
 
 /// The least forces on what a stage holds: down, and outwards where that is a direction.

@@ -6,6 +6,7 @@ mod evidence;
 mod in_time;
 mod packing;
 mod path;
+mod plain;
 mod proof;
 mod run;
 
@@ -14,6 +15,7 @@ pub use evidence::flip;
 pub use in_time::{rocking_answer, seen, shaken_answer};
 pub use packing::packing;
 pub use path::path_evidence;
+pub use plain::of;
 
 use crate::{
     Answer as Answered, AssessOptions, Assessment, Control, Critical, CriticalOptions,
@@ -32,20 +34,6 @@ use derived::REFUSED;
 use model::interface::Model;
 pub(super) use proof::standing;
 use scene::Scene;
-
-/// The result of a question; packings have one of their own ([`packing`](packing())).
-///
-/// # Errors
-/// The answer is one about a packing, or is none to the question.
-pub fn of(
-    question: &Question,
-    scene: &Scene,
-    model: &Model,
-    answer: &Answered,
-) -> Result<ResultFile, InputError> {
-    let (question, evidence) = evidence::of(question, model, answer)?;
-    made(question, scene, model, (evidence, None), run::of(scene, model, answer))
-}
 
 /// The same, with what weakens it: why it is undecided, and what it would be with contacts that
 /// were left out.

@@ -521,3 +521,43 @@ fn reaches(question: &Question, answer: &Answer, require: Option<f64>) -> Option
         (FactorStatus::Found | FactorStatus::AtLeast | FactorStatus::Undecided, _) => None,
     }
 }
+
+/// The answer to a question about one of several scenes.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct Nested {
+    /// The answer.
+    pub answer: Answer,
+    /// What was required of it, and whether it is met.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub required: Option<Required>,
+}
+
+impl Nested {
+    /// Whether what is asked holds: what is required is met, or it stands; `None` where that is open.
+    pub fn holds(&self) -> Option<bool> {
+        match self.required {
+            Some(required) => required.met,
+            None => match self.answer.verdict()? {
+                Verdict::Stable => Some(true),
+                Verdict::Undecided => None,
+                _ => Some(false),
+            },
+        }
+    }
+
+    /// What orders answers, the worst first: what does not hold, what is open, what holds; among these
+    /// the load factor.
+    pub fn height(&self) -> (u8, f64) {
+        let rank = match self.holds() {
+            Some(false) => 0,
+            None => 1,
+            Some(true) => 2,
+        };
+        let value = self.answer.load_factor().map_or(0.0, |l| {
+            let unlimited = l.status == FactorStatus::Unbounded;
+            let known = l.value.or(l.lower);
+            known.unwrap_or(if unlimited { f64::INFINITY } else { f64::NEG_INFINITY })
+        });
+        (rank, value)
+    }
+}

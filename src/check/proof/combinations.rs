@@ -2,9 +2,9 @@
 //! scene; the worst governs.
 
 use super::{
-    answer::Answer,
+    answer::{Answer, Nested},
     derive::{Derivation, failure},
-    nested::{Nested, NestedEvidence},
+    evidence::NestedEvidence,
     told::Told,
 };
 use crate::{question::CombinationsOptions, verdict::exact::Grade};

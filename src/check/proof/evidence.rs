@@ -10,6 +10,7 @@ use super::{
 use crate::{
     elastic::{PathEnd, Quadrature},
     path::saved::SavedPose,
+    question::Question,
     terms::{ClosedAnswer, Found, Law, Method, Order, StateMotion},
     verdict::{Verdict, evidence::ContactForces},
 };
@@ -416,6 +417,16 @@ pub struct SimulateEvidence {
     /// Of the verdict, where it was asked as well.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub standing: Option<Standing>,
+}
+
+/// A question with what was not said written out, and the evidence for its answer.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct NestedEvidence {
+    /// The question.
+    pub question: Question,
+    /// The evidence.
+    pub evidence: Evidence,
 }
 
 fn is_unknown(ends: &[Option<f64>; 2]) -> bool {

@@ -2,9 +2,9 @@
 //! not, each with its own proof.
 
 use super::{
-    answer::{Answer, Quantity},
+    answer::{Answer, Nested, Quantity},
     derive::{Derivation, require},
-    nested::{Nested, NestedEvidence},
+    evidence::NestedEvidence,
     told::Told,
 };
 use crate::{question::MeetOptions, verdict::claim::Findings};

@@ -13,7 +13,6 @@ pub mod kinematic;
 pub mod meet;
 pub mod member;
 pub mod moving;
-pub mod nested;
 pub mod packing;
 pub mod path;
 pub mod read;

@@ -2,9 +2,8 @@
 //! which the answer is derived, the answer as it was derived, and what it took.
 
 use super::{
-    answer::Answer,
+    answer::{Answer, Nested},
     evidence::{ClosedEvidence, Evidence},
-    nested::Nested,
     simulation::FrameResult,
     told::{Counts, Told},
     work::Work,

@@ -15,9 +15,8 @@ use crate::{
 use base::number::{count, rounded_down, rounded_up, short};
 use check::proof::{
     Answer,
-    answer::Quantity,
+    answer::{Nested, Quantity},
     meet::{MeetAnswer, MeetChange},
-    nested::Nested,
     result::ResultFile,
 };
 

@@ -4,6 +4,7 @@
 mod closed;
 mod dry;
 mod factor;
+mod nested;
 mod part;
 mod verdict;
 
@@ -136,7 +137,7 @@ pub fn derive(
 }
 
 impl Derivation<'_> {
-    pub(super) fn told(&mut self, evidence: &Evidence) -> Result<Told, String> {
+    fn told(&mut self, evidence: &Evidence) -> Result<Told, String> {
         match (self.question, evidence) {
             (Question::Assess(_), Evidence::Assess(e)) => self.assess(e),
             (Question::Limit(o), Evidence::Limit(e)) => self.limit(o, e),
