@@ -90,10 +90,16 @@ pub fn again(
     let ask = |question: &Question, scene: &Scene| ask(question, scene, &other, control).ok();
     let question = match question {
         Question::Assess(_) => Question::Assess(AssessOptions { law }),
-        Question::Limit(_) => Question::Limit(LimitOptions { law, require: None, skip_dead: true }),
-        Question::Tilt(o) => {
-            Question::Tilt(TiltOptions { law, require: None, skip_dead: true, ..o.clone() })
+        Question::Limit(_) => {
+            Question::Limit(LimitOptions { law, skip_dead: true, ..LimitOptions::default() })
         }
+        Question::Tilt(o) => Question::Tilt(TiltOptions {
+            law,
+            require: None,
+            skip_dead: true,
+            sensitivity: false,
+            ..o.clone()
+        }),
         Question::Moving(_) => {
             Question::Moving(MovingOptions { law, skip_dead: true, ..MovingOptions::default() })
         }
@@ -103,6 +109,7 @@ pub fn again(
             skip_dead: true,
             linear: true,
             verify: None,
+            sensitivity: false,
             at: Vec::new(),
             ..o.clone()
         }),

@@ -35,6 +35,7 @@ mod repair;
 pub mod repose;
 pub mod rocking;
 pub mod saved;
+mod sensitivity;
 pub mod stability;
 pub mod stages;
 pub mod state;

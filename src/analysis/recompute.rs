@@ -2,7 +2,7 @@
 
 use crate::{
     Answer, Control, Question, StateOptions, Watch, ask, ask_watched, assess, closing, coulomb,
-    critical::probe, saved, stages,
+    critical::probe, saved, sensitivity, stages,
 };
 use base::error::InputError;
 use check::{
@@ -12,7 +12,8 @@ use check::{
         simulation::Seen, verify::Verified,
     },
     rocking::RockOptions,
-    terms::{ClosedAnswer, Law, Order, StateMotion, Stop},
+    sensitivity::Target,
+    terms::{ClosedAnswer, Law, Order, Sided, StateMotion, Stop},
     verdict::Verdict,
 };
 use dynamics::Progress;
@@ -177,6 +178,16 @@ impl Recompute for Solvers {
             Ok(_) => None,
             Err(e) => Some(Err(e)),
         }
+    }
+
+    fn sided(
+        &self,
+        question: &Question,
+        of: (&Scene, &Model),
+        target: &Target,
+        pointers: &[&str],
+    ) -> Option<Vec<Sided>> {
+        self.in_time(|| sensitivity::sided(question, of, target, pointers, &self.control()))
     }
 
     fn least_held(

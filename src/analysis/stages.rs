@@ -167,13 +167,13 @@ fn margin(
 ) -> Result<Answer, InputError> {
     let law = options.law;
     let question = match model.assembly.live.iter().any(|w| *w != Wrench::zero()) {
-        true => Question::Limit(LimitOptions { law, require: None, skip_dead: true }),
+        true => Question::Limit(LimitOptions { law, skip_dead: true, ..LimitOptions::default() }),
         false => Question::Tilt(TiltOptions {
             law,
-            require: None,
             toward: options.toward.clone(),
             all: options.all,
             skip_dead: true,
+            ..TiltOptions::default()
         }),
     };
     door(&question, scene, model, control)

@@ -12,5 +12,6 @@ pub mod path;
 pub mod proof;
 pub mod question;
 pub mod rocking;
+pub mod sensitivity;
 pub mod terms;
 pub mod verdict;

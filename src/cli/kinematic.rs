@@ -40,6 +40,7 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
         at: args.at.clone(),
         linear: args.linear,
         skip_dead: args.skip_dead,
+        sensitivity: args.sensitivity,
     }
     .into();
     let answer = session.ask(&question)?;
@@ -62,6 +63,7 @@ fn in_time(
         (args.linear, "--linear"),
         (args.require.is_some(), "--require"),
         (args.skip_dead, "--skip-dead"),
+        (args.sensitivity, "--sensitivity"),
         (args.toward.len() > 1, "a second --toward"),
     ];
     if let Some((_, option)) = without.into_iter().find(|w| w.0) {

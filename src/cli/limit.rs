@@ -19,9 +19,13 @@ pub fn run(args: &Limit, terminal: &Terminal) -> anyhow::Result<Exit> {
     }
     let mut session =
         Session::open(&args.common)?.drawn(&args.pictures, args.tables.csv.as_deref())?;
-    let question =
-        LimitOptions { law: session.law(), require: args.require, skip_dead: args.skip_dead }
-            .into();
+    let question = LimitOptions {
+        law: session.law(),
+        require: args.require,
+        skip_dead: args.skip_dead,
+        sensitivity: args.sensitivity,
+    }
+    .into();
     session.worst(&args.worst, &question)?;
     let file = session.result(&question, &session.ask(&question)?)?;
     let file = session.answer(terminal, file)?;

@@ -20,6 +20,9 @@ pub fn run(args: &Limit, terminal: &Terminal) -> anyhow::Result<Exit> {
             "--worst cannot be combined with --moving\nhint: sweep over the range with the question `moving`"
         );
     }
+    if args.sensitivity {
+        bail!("--sensitivity cannot be combined with --moving");
+    }
     let told = Told::open(&args.positions, &args.chart)?;
     let session = Session::open(&args.common)?.drawn(&args.pictures, args.tables.csv.as_deref())?;
     let question = MovingOptions {

@@ -16,6 +16,7 @@ pub fn run(args: &Arguments, terminal: &Terminal) -> anyhow::Result<Exit> {
         toward: args.toward.clone(),
         all: args.toward.is_empty().then_some(args.all),
         skip_dead: args.skip_dead,
+        sensitivity: args.sensitivity,
     }
     .into();
     let file = session.result(&question, &session.ask(&question)?)?;

@@ -76,7 +76,7 @@ pub struct JointSpec {
 /// An exception: the joints between two materials, or between two blocks. What it leaves out is as
 /// in the default.
 #[skip_serializing_none]
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct JointOverride {
     /// Two material names, in either order.

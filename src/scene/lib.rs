@@ -31,6 +31,7 @@ mod source;
 mod stage;
 mod suggest;
 pub mod template;
+mod touches;
 mod train;
 pub mod vehicle;
 
@@ -57,6 +58,7 @@ pub use source::Source;
 pub use stage::StageSpec;
 pub use suggest::suggest;
 pub use template::Template;
+pub use touches::Touches;
 pub use train::{Axle, AxleForce, Train};
 
 use schemars::JsonSchema;

@@ -4,7 +4,7 @@
 use super::{
     Header, Parameter, Plan, Sampling, Shard,
     distribution::Axis,
-    pointer::{Pointer, Touches},
+    pointer::Pointer,
     records,
     sampling::{SOBOL, Sampler},
 };
@@ -15,7 +15,7 @@ use base::{
 };
 use model::assembly::{self, Wrench};
 use scene::{
-    Kind, Scene, Shape, Source,
+    Kind, Scene, Shape, Source, Touches,
     import::{Reach, read_meshes},
 };
 use serde_json::Value;

@@ -2,7 +2,7 @@
 
 use super::Parameter;
 use base::error::{InputError, JsonPath};
-use scene::suggest;
+use scene::{Touches, suggest};
 use serde_json::{Map, Value};
 
 /// A pointer that is known to lead to a number or a word of a scene.
@@ -11,17 +11,6 @@ pub(super) struct Pointer {
     tokens: Vec<String>,
     /// The same place as a path, for messages about the scene.
     pub path: JsonPath,
-}
-
-/// What changes with a number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Touches {
-    /// Joints, loads, gravity: blocks and contacts stay.
-    Loads,
-    /// Masses: contacts stay.
-    Masses,
-    /// Anything.
-    Shapes,
 }
 
 impl Pointer {
@@ -139,18 +128,9 @@ impl Pointer {
         }
     }
 
-    /// What depends on this number. Where it is not sure, everything does; interfaces given by hand
-    /// take their law from many places.
+    /// What depends on this number.
     pub fn touches(&self, scene: &Value) -> Touches {
-        let given =
-            scene.get("interfaces").and_then(Value::as_array).is_some_and(|list| !list.is_empty());
-        let tokens: Vec<&str> = self.tokens.iter().map(String::as_str).collect();
-        match tokens[..] {
-            _ if given => Touches::Shapes,
-            ["joints" | "loads" | "gravity", ..] => Touches::Loads,
-            ["materials", _, "density"] | ["blocks", _, "density" | "mass"] => Touches::Masses,
-            _ => Touches::Shapes,
-        }
+        Touches::of(&self.tokens, scene)
     }
 }
 

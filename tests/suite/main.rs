@@ -72,6 +72,7 @@ mod rocking;
 mod same;
 mod scenes;
 mod schema;
+mod sensitivity;
 mod shaken;
 mod stage_order;
 mod stages;

@@ -311,6 +311,13 @@ class Answer:
         return self._answer.get("proof")
 
     @property
+    def sensitivity(self) -> list[dict[str, Any]]:
+        """How the value changes with every number that was assumed, the one that matters most first;
+        empty where that was not asked. Keys as in the JSON of the command."""
+        found: dict[str, Any] = self._answer.get("sensitivity", {})
+        return list(found.get("numbers", []))
+
+    @property
     def warnings(self) -> list[Finding]:
         """What is to be known about the scene and its answer."""
         return [Finding(*each) for each in self._core.warnings()]

@@ -113,16 +113,18 @@ def limit(
     law: Law = "coulomb",
     worst: Worst | None = None,
     skip_dead: bool = False,
+    sensitivity: bool = False,
     keep_all: bool = False,
     time_limit: float | None = None,
     progress: Progress = False,
 ) -> Limit:
     """How large may the live load grow?
 
-    ``skip_dead`` leaves out whether it stands without its live load; other parameters are those of
+    ``skip_dead`` leaves out whether it stands without its live load; ``sensitivity`` tells how the
+    load factor changes with every number that was assumed; other parameters are those of
     :func:`assess`.
     """
-    options: dict[str, Any] = {"law": law, "skip_dead": skip_dead}
+    options: dict[str, Any] = {"law": law, "skip_dead": skip_dead, "sensitivity": sensitivity}
     answer = _ask(
         scene,
         {"limit": options},
@@ -178,6 +180,7 @@ def tilt(
     all: int | None = None,
     law: Law = "coulomb",
     skip_dead: bool = False,
+    sensitivity: bool = False,
     keep_all: bool = False,
     time_limit: float | None = None,
     progress: Progress = False,
@@ -190,8 +193,15 @@ def tilt(
         ``(x, y)`` or ``(x, y, z)``.
     all : int, optional
         So many directions evenly spread, the first along x; 8 where nothing is said.
+    sensitivity : bool
+        How the least tilt changes with every number that was assumed.
     """
-    options = {"law": law, "skip_dead": skip_dead, **_directions(toward, all)}
+    options = {
+        "law": law,
+        "skip_dead": skip_dead,
+        "sensitivity": sensitivity,
+        **_directions(toward, all),
+    }
     answer = _ask(
         scene, {"tilt": options}, keep_all=keep_all, time_limit=time_limit, progress=progress
     )
@@ -369,6 +379,7 @@ def kinematic(
     linear: bool = False,
     law: Law = "coulomb",
     skip_dead: bool = False,
+    sensitivity: bool = False,
     keep_all: bool = False,
     time_limit: float | None = None,
     progress: Progress = False,
@@ -389,6 +400,8 @@ def kinematic(
         Ways of the control point that become points of the curve, m.
     linear : bool
         The linear analysis alone, without a curve.
+    sensitivity : bool
+        How the worst α0 changes with every number that was assumed.
     """
     options: dict[str, Any] = {
         "law": law,
@@ -396,6 +409,7 @@ def kinematic(
         "at": [float(v) for v in at],
         "linear": linear,
         "skip_dead": skip_dead,
+        "sensitivity": sensitivity,
     }
     if control is not None:
         options["control"] = {"block": control[0], "point": _three(control[1])}

@@ -48,6 +48,7 @@ pub(super) fn of(
         (Question::Limit(_), Answered::Limit(l)) => Evidence::Limit(LimitEvidence {
             factor: factor(model, &l.bound, l.dry.as_ref().map(|dry| (model, dry))),
             dead: l.dead.as_ref().map(|dead| standing(model, dead)),
+            sided: Vec::new(),
         }),
         (Question::Moving(_), Answered::Moving(m)) => Evidence::Moving(moving(model, m)),
         (Question::Tilt(o), Answered::Tilt(t)) => {
@@ -145,6 +146,7 @@ fn tilt(model: &Model, t: &Tilted) -> TiltEvidence {
     TiltEvidence {
         directions: t.directions.iter().map(tilted).collect(),
         level: t.level.as_ref().map(|a| standing(model, a)),
+        sided: Vec::new(),
     }
 }
 
@@ -217,6 +219,7 @@ fn kinematic(model: &Model, k: &Kinematic) -> KinematicEvidence {
         control,
         curve: k.curve.as_ref().map(|c| path_evidence(&k.curve_model, c)),
         curve_with_members: tied.map(|t| path_evidence(under, t)),
+        sided: Vec::new(),
     }
 }
 

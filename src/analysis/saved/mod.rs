@@ -20,7 +20,7 @@ pub use plain::of;
 use crate::{
     Answer as Answered, AssessOptions, Assessment, Control, Critical, CriticalOptions,
     LimitOptions, Limited, Proved, Question, ThrustOptions, TiltOptions, Tilted, doubt, left_out,
-    thrust::Thrust,
+    sensitivity, thrust::Thrust,
 };
 use base::error::{InputError, JsonPath};
 use check::{
@@ -51,7 +51,19 @@ pub fn of_question(
     run.doubt = doubt(answer, model, control);
     let closed = left_out(question, scene, model, answer, control).and_then(|l| l.closed);
     let closed = closed.map(|c| ClosedEvidence { law: c.law, answer: c.answer });
-    let (question, evidence) = evidence::of(question, model, answer)?;
+    let (question, mut evidence) = evidence::of(question, model, answer)?;
+    if !question.sensitivity() {
+        return made(question, scene, model, (evidence, closed), run);
+    }
+    let given = (evidence.clone(), closed.clone());
+    let file = made(question.clone(), scene, model, given, run.clone())?;
+    let open = file.sensitivity.as_ref().map(sensitivity::open).unwrap_or_default();
+    let target = file.answer.target();
+    let (Some(target), Some(sided)) = (target, evidence.sided_mut()) else { return Ok(file) };
+    if open.is_empty() {
+        return Ok(file);
+    }
+    *sided = sensitivity::sided(&question, (scene, model), &target, &open, control);
     made(question, scene, model, (evidence, closed), run)
 }
 

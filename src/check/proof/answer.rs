@@ -9,9 +9,11 @@ use super::{
 use crate::{
     elastic::PathEnd,
     question::{KinematicOptions, Question},
-    terms::{Bound, Bracket, Deciding, Fate, Found, Law, Outcome},
+    sensitivity::{Target, Under},
+    terms::{Bound, Bracket, Changing, Deciding, Fate, Found, Law, Outcome},
     verdict::{Verdict, exact::Grade},
 };
+use nalgebra::Vector3;
 use scene::Scene;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -286,6 +288,23 @@ impl Answer {
             Self::Kinematic(a) => Some(a.toward),
             _ => None,
         }
+    }
+
+    /// The value whose changes with the numbers of the scene can be told; nothing where it has none.
+    pub fn target(&self) -> Option<Target> {
+        let toward = || self.toward().map(Vector3::from);
+        let (of, under) = match self {
+            Self::Limit(_) => (Changing::LoadFactor, Under::Load),
+            Self::Tilt(_) => (Changing::TiltDeg, Under::Tilt(toward()?)),
+            Self::Kinematic(_) => (Changing::Alpha0, Under::Quake(toward()?)),
+            _ => return None,
+        };
+        let said = self.load_factor()?;
+        let bound = said.associative.value.filter(|_| said.associative.status == Outcome::Found)?;
+        let slides =
+            matches!(said.found, Some(Found::FixedPoint | Found::Rests | Found::RestsBelow));
+        let law = if said.value.is_some() { said.law } else { Law::Associative };
+        Some(Target { of, under, bound, dry: said.value.filter(|_| slides), law })
     }
 
     /// The flips of a verdict.

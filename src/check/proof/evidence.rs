@@ -11,7 +11,7 @@ use crate::{
     elastic::{PathEnd, Quadrature},
     path::saved::SavedPose,
     question::Question,
-    terms::{ClosedAnswer, Found, Law, Method, Order, StateMotion},
+    terms::{ClosedAnswer, Found, Law, Method, Order, Sided, StateMotion},
     verdict::{Verdict, evidence::ContactForces},
 };
 use model::train::Travel;
@@ -124,6 +124,29 @@ pub struct DryEvidence {
     pub certificate: Arc<Certificate>,
 }
 
+impl Evidence {
+    /// How the value changes with numbers for which that was asked again; nothing where that is no
+    /// part of the evidence.
+    pub fn sided_mut(&mut self) -> Option<&mut Vec<Sided>> {
+        match self {
+            Self::Limit(e) => Some(&mut e.sided),
+            Self::Tilt(e) => Some(&mut e.sided),
+            Self::Kinematic(e) => Some(&mut e.sided),
+            _ => None,
+        }
+    }
+
+    /// The same, to read.
+    pub fn sided(&self) -> &[Sided] {
+        match self {
+            Self::Limit(e) => &e.sided,
+            Self::Tilt(e) => &e.sided,
+            Self::Kinematic(e) => &e.sided,
+            _ => &[],
+        }
+    }
+}
+
 impl DryEvidence {
     /// That nothing is known.
     pub(super) fn undecided() -> Self {
@@ -146,6 +169,9 @@ pub struct LimitEvidence {
     /// Of the scene without its live load.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dead: Option<Standing>,
+    /// How its value changes with numbers for which that was asked again. Computed.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub sided: Vec<Sided>,
 }
 
 /// Of `moving`.
@@ -180,6 +206,9 @@ pub struct TiltEvidence {
     /// Of the scene level.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub level: Option<Standing>,
+    /// How the least tilt changes with numbers for which that was asked again. Computed.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub sided: Vec<Sided>,
 }
 
 /// Of `critical`.
@@ -325,6 +354,9 @@ pub struct KinematicEvidence {
     pub curve: Option<PathEvidence>,
     /// The curve with members.
     pub curve_with_members: Option<PathEvidence>,
+    /// How the worst α0 changes with numbers for which that was asked again. Computed.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub sided: Vec<Sided>,
 }
 
 /// Of `stages`.

@@ -19,6 +19,7 @@ pub mod read;
 pub mod recompute;
 pub mod result;
 pub mod rocking;
+mod sensitivity;
 pub mod shaken;
 pub mod simulation;
 pub mod stages;

@@ -5,7 +5,8 @@ use crate::{
     elastic::PathEnd,
     question::{Question, StateOptions},
     rocking::RockOptions,
-    terms::{ClosedAnswer, Law, Order, StateMotion},
+    sensitivity::Target,
+    terms::{ClosedAnswer, Law, Order, Sided, StateMotion},
     verdict::Verdict,
 };
 use base::error::InputError;
@@ -92,6 +93,18 @@ pub trait Recompute {
         _scene: &Scene,
         _model: &Model,
     ) -> Option<Result<(PathEnd, f64), InputError>> {
+        None
+    }
+
+    /// How a value changes with these numbers of the scene, by their JSON pointers, asked again with
+    /// each a little less and a little more.
+    fn sided(
+        &self,
+        _question: &Question,
+        _of: (&Scene, &Model),
+        _target: &Target,
+        _pointers: &[&str],
+    ) -> Option<Vec<Sided>> {
         None
     }
 

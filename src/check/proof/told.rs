@@ -14,7 +14,7 @@ use super::{
     thrust::ThrustResult,
 };
 use crate::{
-    terms::{Found, LeftOutContacts, Outcome, StateMotion},
+    terms::{Found, LeftOutContacts, Outcome, Sensitivity, StateMotion},
     verdict::mechanism::{JointMotion, Mechanism},
 };
 use base::error::Finding;
@@ -41,6 +41,8 @@ pub struct Told {
     pub dead_load: Option<Direction>,
     /// The load factor with dry friction.
     pub dry: Option<DryResult>,
+    /// How the value changes with the numbers that were assumed, where that was asked.
+    pub sensitivity: Option<Sensitivity>,
     /// What the state under dry friction does, where it was computed.
     #[serde(rename = "state_under_dry_friction")]
     pub motion: Option<StateMotion>,
@@ -129,6 +131,7 @@ impl Told {
             directions: Vec::new(),
             dead_load: None,
             dry: None,
+            sensitivity: None,
             motion: None,
             critical: None,
             thrust: None,

@@ -6,6 +6,10 @@ use base::error::{InputError, JsonPath};
 /// An option without any effect where the answer is one number, and what to do about it.
 pub type Idle = (&'static str, &'static str);
 
+/// A row holds one value.
+pub(super) const IDLE_SENSITIVITY: Idle =
+    ("sensitivity", "remove it: rows hold one value; let the numbers vary instead");
+
 /// The options of a question.
 pub trait Asked: Sized {
     /// Refuses options that mean nothing, whatever the scene; `path` is that of the question.
@@ -29,6 +33,11 @@ pub trait Asked: Sized {
         None
     }
 
+    /// Whether it is told how the value changes with what was assumed.
+    fn sensitivity(&self) -> bool {
+        false
+    }
+
     /// What the value of an answer is, with its unit; nothing where the answer is a verdict.
     fn quantity(&self) -> Option<&'static str> {
         None
@@ -47,7 +56,7 @@ pub trait Asked: Sized {
     }
 }
 
-/// What is a field of the options: `law`, `require`.
+/// What is a field of the options: `law`, `require`, `sensitivity`.
 macro_rules! chosen {
     (law) => {
         fn law(&self) -> Law {
@@ -61,6 +70,11 @@ macro_rules! chosen {
     (require) => {
         fn require(&self) -> Option<f64> {
             self.require
+        }
+    };
+    (sensitivity) => {
+        fn sensitivity(&self) -> bool {
+            self.sensitivity
         }
     };
     ($($field:ident),+) => {

@@ -1,7 +1,7 @@
 //! What is asked of a mechanism under an earthquake.
 
 use super::{
-    asked::{Asked, Idle, chosen},
+    asked::{Asked, IDLE_SENSITIVITY, Idle, chosen},
     control::ControlPoint,
     directions::{self, check_directions},
 };
@@ -61,6 +61,10 @@ pub struct KinematicOptions {
     /// dry friction only: a plan has no such key.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub skip_dead: bool,
+    /// How the value changes with every number that was assumed. Rows of a sweep hold one value: a
+    /// plan has no such key.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub sensitivity: bool,
 }
 
 impl Asked for KinematicOptions {
@@ -84,13 +88,16 @@ impl Asked for KinematicOptions {
         check_directions(path, &self.toward, self.all)
     }
 
-    chosen!(law, require);
+    chosen!(law, require, sensitivity);
 
     fn quantity(&self) -> Option<&'static str> {
         Some("α0")
     }
 
     fn idle_in_rows(&self) -> Option<Idle> {
+        if self.sensitivity {
+            return Some(IDLE_SENSITIVITY);
+        }
         if self.skip_dead {
             return Some((
                 "skip_dead",
@@ -107,6 +114,6 @@ impl Asked for KinematicOptions {
     /// where its displacements are verified.
     fn for_one_number(self) -> Self {
         let linear = self.verify != Some(Verification::Displacement);
-        Self { skip_dead: self.law == Law::Associative, linear, ..self }
+        Self { skip_dead: self.law == Law::Associative, linear, sensitivity: false, ..self }
     }
 }

@@ -1,6 +1,6 @@
 //! What is asked of a live load.
 
-use super::asked::{Asked, Idle, chosen};
+use super::asked::{Asked, IDLE_SENSITIVITY, Idle, chosen};
 use crate::terms::Law;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -18,21 +18,28 @@ pub struct LimitOptions {
     /// it: a plan has no such key.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub skip_dead: bool,
+    /// How the value changes with every number that was assumed. Rows of a sweep hold one value: a
+    /// plan has no such key.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub sensitivity: bool,
 }
 
 impl Asked for LimitOptions {
-    chosen!(law, require);
+    chosen!(law, require, sensitivity);
 
     fn quantity(&self) -> Option<&'static str> {
         Some("load factor")
     }
 
     fn idle_in_rows(&self) -> Option<Idle> {
+        if self.sensitivity {
+            return Some(IDLE_SENSITIVITY);
+        }
         let hint = "remove it: rows never compute the verdict without the live load";
         self.skip_dead.then_some(("skip_dead", hint))
     }
 
     fn for_one_number(self) -> Self {
-        Self { skip_dead: true, ..self }
+        Self { skip_dead: true, sensitivity: false, ..self }
     }
 }

@@ -119,6 +119,13 @@ macro_rules! questions {
                 }
             }
 
+            /// Whether it is told how the value changes with what was assumed.
+            pub fn sensitivity(&self) -> bool {
+                match self {
+                    $(Self::$name(o) => o.sensitivity(),)+
+                }
+            }
+
             /// What the value of an answer is, with its unit; nothing where the answer is a verdict.
             pub fn quantity(&self) -> Option<&'static str> {
                 match self {

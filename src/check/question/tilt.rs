@@ -1,7 +1,7 @@
 //! What is asked of tilts.
 
 use super::{
-    asked::{Asked, Idle, chosen},
+    asked::{Asked, IDLE_SENSITIVITY, Idle, chosen},
     directions::{self, check_directions},
 };
 use crate::terms::Law;
@@ -28,6 +28,10 @@ pub struct TiltOptions {
     /// plan has no such key.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub skip_dead: bool,
+    /// How the value changes with every number that was assumed. Rows of a sweep hold one value: a
+    /// plan has no such key.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub sensitivity: bool,
 }
 
 impl Asked for TiltOptions {
@@ -35,13 +39,16 @@ impl Asked for TiltOptions {
         check_directions(path, &self.toward, self.all)
     }
 
-    chosen!(law, require);
+    chosen!(law, require, sensitivity);
 
     fn quantity(&self) -> Option<&'static str> {
         Some("tilt in degrees")
     }
 
     fn idle_in_rows(&self) -> Option<Idle> {
+        if self.sensitivity {
+            return Some(IDLE_SENSITIVITY);
+        }
         let hint =
             "remove it: rows compute the verdict without tilt only where dry friction needs it";
         self.skip_dead.then_some(("skip_dead", hint))
@@ -49,6 +56,6 @@ impl Asked for TiltOptions {
 
     /// With dry friction all directions share the verdict when level.
     fn for_one_number(self) -> Self {
-        Self { skip_dead: self.law == Law::Associative, ..self }
+        Self { skip_dead: self.law == Law::Associative, sensitivity: false, ..self }
     }
 }

@@ -14,6 +14,7 @@ mod law;
 mod method;
 mod order;
 mod outcome;
+mod sensitivity;
 mod simulation;
 
 pub use agreement::{Agreement, ForceAgreement, agree};
@@ -29,4 +30,5 @@ pub use law::Law;
 pub use method::Method;
 pub use order::Order;
 pub use outcome::Outcome;
+pub use sensitivity::{Changing, Derivative, Origin, Sensitivity, Sided};
 pub use simulation::{Fate, Fidelity, Run, Stop};

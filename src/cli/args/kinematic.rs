@@ -49,6 +49,12 @@ pub struct Kinematic {
     /// Skip the check that it stands without an earthquake.
     #[arg(long)]
     pub skip_dead: bool,
+    /// Report how α0 changes with every number that was assumed.
+    ///
+    /// These are friction, density, strengths and loads. The derivatives follow from the proof.
+    /// Where it leaves them open, both sides are computed, not proved.
+    #[arg(long)]
+    pub sensitivity: bool,
     #[command(flatten)]
     pub rocking: Rocking,
     /// Write directions, curve and limit states to this file (CSV).

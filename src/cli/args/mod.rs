@@ -319,6 +319,12 @@ pub struct Limit {
     /// Skip the check that it stands without its live load.
     #[arg(long)]
     pub skip_dead: bool,
+    /// Report how the load factor changes with every number that was assumed.
+    ///
+    /// These are friction, density, strengths and loads. The derivatives follow from the proof.
+    /// Where it leaves them open, both sides are computed, not proved.
+    #[arg(long)]
+    pub sensitivity: bool,
     /// Find the worst case within ranges: NAME=LOW..HIGH, separated by commas.
     ///
     /// NAME is `friction` (all joints without an override), `density` (each material on its own),
@@ -352,6 +358,12 @@ pub struct Tilt {
     /// Skip the check that it stands when level.
     #[arg(long)]
     pub skip_dead: bool,
+    /// Report how the tilt changes with every number that was assumed.
+    ///
+    /// These are friction, density, strengths and loads. The derivatives follow from the proof.
+    /// Where it leaves them open, both sides are computed, not proved.
+    #[arg(long)]
+    pub sensitivity: bool,
 }
 
 #[derive(Debug, Args)]

@@ -12,6 +12,7 @@ mod meet;
 mod moving;
 pub mod path;
 mod rocking;
+pub(crate) mod sensitivity;
 mod shaken;
 mod simulation;
 mod stages;

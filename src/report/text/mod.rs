@@ -57,6 +57,7 @@ pub fn render(file: &ResultFile, asked: Asked, options: TextOptions, layout: Lay
     mechanism::members(&mut page, file, options);
     page.row("weak joints", asked.weak.iter().cloned());
     (telling.rows)(&mut page, file, options);
+    tell::sensitivity::rows(&mut page, file, options);
     tell::part(&mut page, file);
     tell::digits(&mut page, file, options);
     page.row("proof", proof(file, options));

@@ -7,6 +7,7 @@
 //! * [`alike`]: each scene beside its mirror image, a larger, a moved and a renamed one, every question;
 //! * [`cross`]: each scene asked in several ways that must give one answer;
 //! * [`forge`]: results changed into false ones, all of which must be refused;
+//! * [`slopes`]: derivatives of load factors, held against differences;
 //! * [`fuzz`]: inputs of every reader changed at random.
 
 #![forbid(unsafe_code)]
@@ -17,4 +18,5 @@ pub mod edges;
 pub mod forge;
 pub mod fuzz;
 mod random;
+pub mod slopes;
 pub mod soak;

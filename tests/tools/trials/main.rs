@@ -6,7 +6,7 @@ use report::{json, text::Layout};
 use serde::Serialize;
 use serde_json::Value;
 use std::{io::Write, path::PathBuf, process::ExitCode};
-use trials::{alike, cross, edges, forge, fuzz, soak};
+use trials::{alike, cross, edges, forge, fuzz, slopes, soak};
 
 /// Trials of the whole on random scenes; exit code 1 where anything is wrong.
 #[derive(Parser)]
@@ -29,6 +29,8 @@ enum Trial {
     Alike(Options),
     /// The results of every scene changed into false claims, some two hundred a scene.
     Forge(Options),
+    /// Derivatives of the load factor of every scene, held against differences.
+    Slopes(Options),
     /// Inputs of every reader changed at random: so many, not scenes.
     Fuzz(Options),
 }
@@ -86,6 +88,7 @@ fn main() -> anyhow::Result<ExitCode> {
     | Trial::Edges(o)
     | Trial::Alike(o)
     | Trial::Forge(o)
+    | Trial::Slopes(o)
     | Trial::Fuzz(o)) = &trial;
     if o.dump.as_ref().is_some_and(|folder| !folder.is_dir()) {
         bail!("--dump: there is no such folder");
@@ -101,6 +104,7 @@ fn main() -> anyhow::Result<ExitCode> {
             Trial::Soak(_) => soak::scene(seed, index)?.0,
             Trial::Edges(_) => edges::scene(seed, index)?.0,
             Trial::Alike(_) => alike::scene(seed, index)?.0,
+            Trial::Slopes(_) => slopes::scene(seed, index)?.0,
             _ => cross::scene(seed, index)?.0,
         };
         println!("{}", json::text(&scene.to_value()?));
@@ -132,6 +136,12 @@ fn main() -> anyhow::Result<ExitCode> {
             let list = alike::run(seed, count, kept.as_ref(), |_| {})?;
             let wrong = list.iter().any(alike::Alike::is_wrong);
             o.tell(&list, wrong, [], alike::text(&list, seed, verbose, layout))
+        }
+        Trial::Slopes(_) => {
+            let kept = keep.map(|path| slopes::keep(path, seed)).transpose()?;
+            let list = slopes::run(seed, count, kept.as_ref(), |_| {})?;
+            let wrong = list.iter().any(slopes::Sloped::is_wrong);
+            o.tell(&list, wrong, [], slopes::text(&list, seed, verbose, layout))
         }
         Trial::Fuzz(_) => {
             let list = fuzz::run(seed, count, |n| eprint!("\r{n}"))?;

@@ -21,7 +21,7 @@ use super::{
     kinematic, meet, moving, path,
     recompute::Recompute,
     result::{ResultFile, Run, SceneSummary},
-    rocking, shaken, stages, state, thrust,
+    rocking, sensitivity, shaken, stages, state, thrust,
     told::{Direction, Told},
     without,
 };
@@ -119,6 +119,7 @@ pub fn derive(
     let mut own = Derivation { question: &question, scene, model, again, check };
     let mut told = own.told(&evidence)?;
     own.left_out(&mut told, closed.as_ref())?;
+    own.sensitivity(&mut told, &evidence)?;
     // In time blocks meet as their shapes do.
     if !matches!(told.answer, Answer::Simulation(_) | Answer::Shaken(_)) || told.motion.is_some() {
         told.flattened = flattened(model, &told.certificate, own.check.claimed);
@@ -163,6 +164,27 @@ impl Derivation<'_> {
                 Err(format!("the evidence does not answer the question `{}`", self.question.word()))
             }
         }
+    }
+
+    /// How the value changes with what was assumed, where that is asked.
+    fn sensitivity(&mut self, told: &mut Told, evidence: &Evidence) -> Result<(), String> {
+        if !self.question.sensitivity() {
+            return match evidence.sided().is_empty() {
+                true => Ok(()),
+                false => Err("derivatives were not asked for".into()),
+            };
+        }
+        let Some(target) = told.answer.target() else { return Ok(()) };
+        let scene = (self.scene, self.model);
+        let (question, again) = (self.question, self.again);
+        let ask = |pointers: &[&str]| again.sided(question, scene, &target, pointers);
+        let ask: sensitivity::Again<'_> = &ask;
+        let evidence = (&*told.certificate, evidence.sided());
+        let found = sensitivity::derive(scene, &target, evidence, self.asks_again().then_some(ask));
+        let (found, f) = found.map_err(|e| e.to_string())?;
+        told.sensitivity = Some(found);
+        self.part("sensitivity", f);
+        Ok(())
     }
 
     /// Adds a part of the check.

@@ -59,6 +59,18 @@ pub struct Blocks {
     findings: Vec<Finding>,
 }
 
+impl Blocks {
+    /// Those of an assembly, each as heavy as it is × what is said of it.
+    pub fn of(assembly: &Assembly, times: impl Fn(usize, &Block) -> f64) -> Self {
+        let weighed = |(i, block): (usize, &Block)| {
+            let by = times(i, block);
+            Block { mass: block.mass * by, inertia: block.inertia * by, ..block.clone() }
+        };
+        let list = assembly.blocks.iter().enumerate().map(weighed).collect();
+        Self { list, findings: Vec::new() }
+    }
+}
+
 /// Resolves the blocks of a scene. They depend on its blocks, templates and materials alone.
 ///
 /// # Errors

@@ -256,7 +256,7 @@ fn questions(scene: &Scene, random: &mut Random) -> Vec<Question> {
 }
 
 /// The middle of what there is of a block.
-fn middle(block: &BlockSpec) -> Vector3<f64> {
+pub(crate) fn middle(block: &BlockSpec) -> Vector3<f64> {
     let own = match &block.shape {
         Shape::Prism { polygon, .. } => {
             let sum = polygon.iter().fold([0.0; 2], |s, p| [s[0] + p[0], s[1] + p[1]]);
