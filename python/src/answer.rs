@@ -1,12 +1,13 @@
 //! Answers: the result file with its model, and everything that is made of them.
 
 use crate::{arrays, error::Trouble, scene::told};
-use numpy::{PyArray1, PyArray2};
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use numpy::{PyArray1, PyArray2, PyReadonlyArray2};
 use pyo3::{exceptions::PyKeyError, prelude::*};
 use pythonize::pythonize;
 use std::sync::{Arc, OnceLock};
 use voussoir::{
-    dynamics::Frame,
+    dynamics::{Fidelity, Frame, Pose},
     interface::{Model, prepare},
     proof::{
         PackingFile, ResultFile, Saved, VerificationFile, certificate::Certificate, read,
@@ -46,6 +47,9 @@ pub struct Packed {
     pub file: PackingFile,
     pub scene: Arc<voussoir::scene::Scene>,
 }
+
+/// The result, its film and, of a packing, the answer and its scene.
+type State<'py> = (String, Bound<'py, PyArray2<f64>>, Option<(String, String)>);
 
 /// Joints, offsets, contact points, forces, couples.
 type Flat<'py> = (
@@ -93,6 +97,20 @@ impl Answer {
 }
 
 impl Kept {
+    fn read(name: String, text: String) -> Result<Self, Trouble> {
+        let saved = read::read_str(name.clone(), text)?;
+        let model = prepare(&saved.scene)?;
+        // What only a solver can do again is left to `verify`.
+        let found = verify_model(&saved, &saved.scene, &model, &JustComputed);
+        let fails = found.parts.iter().flat_map(|(title, f)| f.fails.first().zip(Some(title)));
+        if let Some((why, title)) = fails.take(1).next() {
+            return Err(Trouble::other(format!("{name} is refuted: {title}: {why}")));
+        }
+        let file = found.file.ok_or_else(|| Trouble::other(format!("{name} is refuted")))?;
+        let model = OnceLock::from(Arc::new(model));
+        Ok(Self { file, model, film: Vec::new(), packed: None })
+    }
+
     fn model(&self) -> Result<Arc<Model>, Trouble> {
         if let Some(model) = self.model.get() {
             return Ok(model.clone());
@@ -103,6 +121,38 @@ impl Kept {
 
     fn view(&self) -> Result<View, Trouble> {
         View::new(&*self.model()?, &self.file, self.film.clone()).map_err(Trouble::other)
+    }
+}
+
+/// A frame as a row: time, settings, displacement, energy, then 13 numbers a block.
+fn frame_row(frame: &Frame) -> Vec<f64> {
+    let fine = f64::from(u8::from(frame.fidelity == Fidelity::Fine));
+    let body = |p: &Pose| {
+        let Pose { center: c, turn: q, velocity: v, spin: s } = p;
+        [c.x, c.y, c.z, q.w, q.i, q.j, q.k, v.x, v.y, v.z, s.x, s.y, s.z]
+    };
+    let head = [frame.time, fine, frame.relative, frame.energy];
+    head.into_iter().chain(frame.blocks.iter().flat_map(body)).collect()
+}
+
+fn frame(row: &[f64]) -> Frame {
+    let (head, blocks) = row.split_at(row.len().min(4));
+    let head = |k: usize| head.get(k).copied().unwrap_or(f64::NAN);
+    let body = |p: &[f64; 13]| {
+        let [x, y, z, w, i, j, k, vx, vy, vz, sx, sy, sz] = *p;
+        Pose {
+            center: Vector3::new(x, y, z),
+            turn: UnitQuaternion::new_unchecked(Quaternion::new(w, i, j, k)),
+            velocity: Vector3::new(vx, vy, vz),
+            spin: Vector3::new(sx, sy, sz),
+        }
+    };
+    Frame {
+        time: head(0),
+        fidelity: if head(1) == 1.0 { Fidelity::Fine } else { Fidelity::Fast },
+        relative: head(2),
+        energy: head(3),
+        blocks: blocks.as_chunks::<13>().0.iter().map(body).collect(),
     }
 }
 
@@ -120,20 +170,43 @@ impl Answer {
     /// Reads a saved result.
     #[staticmethod]
     fn read(py: Python, name: String, text: String) -> PyResult<Self> {
-        let read = || -> Result<Kept, Trouble> {
-            let saved = read::read_str(name.clone(), text)?;
-            let model = prepare(&saved.scene)?;
-            // What only a solver can do again is left to `verify`.
-            let found = verify_model(&saved, &saved.scene, &model, &JustComputed);
-            let fails = found.parts.iter().flat_map(|(title, f)| f.fails.first().zip(Some(title)));
-            if let Some((why, title)) = fails.take(1).next() {
-                return Err(Trouble::other(format!("{name} is refuted: {title}: {why}")));
-            }
-            let file = found.file.ok_or_else(|| Trouble::other(format!("{name} is refuted")))?;
-            let model = OnceLock::from(Arc::new(model));
-            Ok(Kept { file, model, film: Vec::new(), packed: None })
+        let kept = py.detach(|| Kept::read(name, text)).map_err(|e| e.raise(py))?;
+        Ok(Self { kept: Arc::new(kept) })
+    }
+
+    /// What [`restored`](Self::restored) makes the same answer of: the result, its film (a row a
+    /// frame) and, of a packing, the answer with its scene.
+    fn state<'py>(&self, py: Python<'py>) -> PyResult<State<'py>> {
+        let Kept { film, packed, .. } = &*self.kept;
+        let text = |packed: &Packed| {
+            Ok((serde_json::to_string(&packed.file)?, serde_json::to_string(&*packed.scene)?))
         };
-        let kept = py.detach(read).map_err(|e| e.raise(py))?;
+        let packed = packed.as_ref().map(text).transpose();
+        let packed = packed.map_err(|e: serde_json::Error| Trouble::other(e).raise(py))?;
+        let rows: Vec<Vec<f64>> = film.iter().map(frame_row).collect();
+        let film = PyArray2::from_vec2(py, &rows).map_err(|e| Trouble::other(e).raise(py))?;
+        Ok((self.json(py)?, film, packed))
+    }
+
+    /// An answer of its state.
+    #[staticmethod]
+    fn restored(
+        py: Python,
+        text: String,
+        film: PyReadonlyArray2<f64>,
+        packed: Option<(String, String)>,
+    ) -> PyResult<Self> {
+        let film = film.as_array().rows().into_iter().map(|r| frame(&r.to_vec())).collect();
+        let restore = || {
+            let packed = packed.map(|(file, scene)| {
+                let scene = Arc::new(serde_json::from_str(&scene)?);
+                Ok::<_, serde_json::Error>(Packed { file: serde_json::from_str(&file)?, scene })
+            });
+            let packed = packed.transpose().map_err(Trouble::other)?;
+            let kept = Kept::read("the pickled answer".into(), text)?;
+            Ok::<_, Trouble>(Kept { film, packed, ..kept })
+        };
+        let kept = py.detach(restore).map_err(|e| e.raise(py))?;
         Ok(Self { kept: Arc::new(kept) })
     }
 
@@ -153,6 +226,7 @@ impl Answer {
                 pythonize(py, &f.directions.iter().map(|d| &d.answer).collect::<Vec<_>>())?
             }
             "doubt" => pythonize(py, &f.run.doubt)?,
+            "required" => pythonize(py, &f.required)?,
             "left_out_contacts" => pythonize(py, &f.left_out_contacts)?,
             "left_out" => pythonize(py, &f.run.left_out)?,
             "simulation" => pythonize(py, &f.simulation)?,
@@ -162,6 +236,7 @@ impl Answer {
             "critical" => pythonize(py, &f.critical)?,
             "state_under_dry_friction" => pythonize(py, &f.motion)?,
             "dry" => pythonize(py, &f.dry)?,
+            "why" => pythonize(py, &f.run.why)?,
             "timings" => pythonize(py, &f.run.timings)?,
             "work" => pythonize(py, &f.run.work)?,
             "scene" => pythonize(py, &f.scene.counts)?,
@@ -228,7 +303,7 @@ impl Answer {
         Ok((
             blocks.iter().map(|b| b.id.clone()).collect(),
             blocks.iter().map(|b| b.support).collect(),
-            PyArray1::from_vec(py, blocks.iter().map(|b| b.mass).collect()),
+            arrays::numbers(py, blocks.iter().map(|b| b.mass).collect()),
             arrays::rows(py, blocks.iter().map(|b| b.centroid.into()).collect()),
         ))
     }
@@ -245,7 +320,7 @@ impl Answer {
         let frame = |f: &voussoir::interface::ContactFrame| [f.t1, f.t2, f.n].map(Into::into);
         Ok((
             arrays::rows(py, list.iter().flat_map(|f| frame(&f.frame)).collect()),
-            PyArray1::from_vec(py, list.iter().map(|f| f.area).collect()),
+            arrays::numbers(py, list.iter().map(|f| f.area).collect()),
         ))
     }
 
@@ -350,15 +425,12 @@ impl Answer {
     #[allow(clippy::type_complexity)]
     fn film<'py>(&self, py: Python<'py>) -> (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>) {
         let film = &self.kept.film;
-        let row = |p: &voussoir::dynamics::Pose| {
+        let row = |p: &Pose| {
             let (c, q) = (p.center, p.turn);
             [c.x, c.y, c.z, q.w, q.i, q.j, q.k]
         };
         let poses = film.iter().flat_map(|f| f.blocks.iter().flat_map(row)).collect();
-        (
-            PyArray1::from_vec(py, film.iter().map(|f| f.time).collect()),
-            PyArray1::from_vec(py, poses),
-        )
+        (arrays::numbers(py, film.iter().map(|f| f.time).collect()), arrays::numbers(py, poses))
     }
 
     /// Proves the result from its scene, or from another: the verification as plain values.

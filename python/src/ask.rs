@@ -3,7 +3,7 @@
 use crate::{
     answer::{Answer, Packed},
     error::Trouble,
-    scene::{Ready, Scene, value, wrong},
+    scene::{Ready, Scene, steps, value, wrong},
     wait::{self, Watch},
 };
 use pyo3::prelude::*;
@@ -15,6 +15,7 @@ use voussoir::{
     dynamics::Progress,
     error::{Finding, FindingCode, InputError, JsonPath},
     interface::{Model, prepare},
+    parallel,
     proof::{ResultFile, kept::KeptPath, saved, work::Work},
     report::view::Film,
     scene::Scene as Plain,
@@ -68,7 +69,7 @@ pub fn ask(
     time_limit: Option<f64>,
     worst: Vec<String>,
     simulate: &str,
-    threads: usize,
+    threads: i64,
     frames: usize,
     film: bool,
     verdict: Option<&str>,
@@ -80,6 +81,11 @@ pub fn ask(
         let error = InputError::at(JsonPath::root().key(key), format!("unknown value {word:?}"));
         Trouble::from(error).raise(py)
     };
+    if let Some(limit) = time_limit.filter(|limit| limit.is_nan() || *limit <= 0.0) {
+        let path = JsonPath::root().key("time_limit");
+        let error = InputError::at(path, format!("must be > 0, got {limit}"));
+        return Err(Trouble::from(error.hint("seconds; None for no limit")).raise(py));
+    }
     let simulate = match simulate {
         "always" => Beside::Always,
         "in doubt" => Beside::InDoubt,
@@ -92,6 +98,7 @@ pub fn ask(
         Some("coulomb") => Some(Law::Coulomb),
         Some(word) => return Err(unknown("law", word)),
     };
+    let threads = wait::threads(py, threads)?;
     let manner =
         Manner { keep_all, time_limit, worst, simulate, threads, frames, film, verdict, keep };
     let ready = scene.ready();
@@ -108,9 +115,8 @@ pub fn is_result(text: &str) -> bool {
 pub fn question(plain: &Bound<PyAny>) -> PyResult<Question> {
     value(plain, |text| {
         let mut reader = serde_json::Deserializer::from_str(&text);
-        serde_path_to_error::deserialize(&mut reader).map_err(|e| {
-            InputError::at(JsonPath::root().key(e.path().to_string()), wrong(e.inner()))
-        })
+        serde_path_to_error::deserialize(&mut reader)
+            .map_err(|e| InputError::at(steps(JsonPath::root(), e.path()), wrong(e.inner())))
     })
 }
 
@@ -280,8 +286,8 @@ impl Session<'_> {
         };
         let watch = analysis::Watch {
             threads: match threads {
-                0 => std::thread::available_parallelism().map_or(1, |n| n.get()),
-                n => n,
+                0 => parallel::processors(),
+                n => parallel::most(n),
             },
             frames: wanted,
             keep_frames: true,

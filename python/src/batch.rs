@@ -1,7 +1,7 @@
 //! One question of many scenes, on threads, without any text in between.
 
 use crate::{
-    ask,
+    arrays, ask,
     error::Trouble,
     scene::{Ready, Scene},
     wait::{self, Watch},
@@ -42,9 +42,10 @@ pub fn ask_many<'py>(
     scenes: Vec<PyRef<Scene>>,
     questions: Vec<Bound<PyAny>>,
     keep_all: bool,
-    threads: usize,
+    threads: i64,
     progress: Option<&Bound<PyAny>>,
 ) -> PyResult<Vec<Columns<'py>>> {
+    let threads = wait::threads(py, threads)?;
     let ready: Vec<Ready> = scenes.iter().map(|s| s.ready()).collect();
     drop(scenes);
     let questions: Vec<Question> = questions.iter().map(ask::question).collect::<PyResult<_>>()?;
@@ -97,7 +98,7 @@ fn answers(ready: &Ready, questions: &[Question], control: &Control, watch: &Wat
 fn columns<'py>(py: Python<'py>, lines: &[Vec<Line>], k: usize) -> Columns<'py> {
     let column = |number: fn(&RowAnswer) -> Option<f64>| {
         let numbers = lines.iter().map(|l| l.get(k).and_then(|l| number(&l.answer)));
-        PyArray1::from_vec(py, numbers.map(|n| n.unwrap_or(f64::NAN)).collect())
+        arrays::numbers(py, numbers.map(|n| n.unwrap_or(f64::NAN)).collect())
     };
     let errors = lines
         .iter()

@@ -39,9 +39,10 @@ pub fn heaps(
     seeds: Vec<u64>,
     skip_margin: bool,
     keep_all: bool,
-    threads: usize,
+    threads: i64,
     progress: Option<&Bound<PyAny>>,
 ) -> PyResult<Heaps> {
+    let threads = wait::threads(py, threads)?;
     let protocol: Protocol = value(protocol.as_any(), |text| {
         serde_json::from_str(&text).map_err(|e| {
             InputError::at(JsonPath::root().key("protocol"), wrong(&e)).hint(
@@ -86,6 +87,20 @@ fn made(
 
 #[pymethods]
 impl Heaps {
+    /// What [`restored`](Self::restored) makes the same heaps of.
+    fn state(&self, py: Python) -> PyResult<String> {
+        let state = serde_json::to_string(&(&self.file, &self.heaps));
+        state.map_err(|e| Trouble::other(e).raise(py))
+    }
+
+    /// Heaps of their state.
+    #[staticmethod]
+    fn restored(py: Python, state: &str) -> PyResult<Self> {
+        let read: Result<(ReposeFile, Vec<Heap>), _> = serde_json::from_str(state);
+        let (file, heaps) = read.map_err(|e| Trouble::other(e).raise(py))?;
+        Ok(Self { file, heaps })
+    }
+
     /// All of it as plain values.
     fn plain<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         Ok(pythonize(py, &self.file)?)

@@ -1,6 +1,6 @@
 //! Piles of shapes from arrays.
 
-use crate::{error::Trouble, scene::Scene, wait};
+use crate::{arrays, error::Trouble, scene::Scene, wait};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use numpy::{
     PyArray1, PyReadonlyArray2, PyReadonlyArray3,
@@ -62,9 +62,10 @@ impl Piles {
         turn: Option<PyReadonlyArray3<f64>>,
         masses: Option<PyReadonlyArray2<f64>>,
         margin: bool,
-        threads: usize,
+        threads: i64,
         progress: Option<&Bound<PyAny>>,
     ) -> PyResult<Columns<'py>> {
+        let threads = wait::threads(py, threads)?;
         let turn = turn.as_ref().map(|t| t.as_array());
         let masses = masses.as_ref().map(|m| m.as_array());
         let list = listed(which.as_array(), at.as_array(), turn, masses);
@@ -112,7 +113,7 @@ impl Piles {
                 }
             }
         }
-        let (lower, upper) = (PyArray1::from_vec(py, lower), PyArray1::from_vec(py, upper));
+        let (lower, upper) = (arrays::numbers(py, lower), arrays::numbers(py, upper));
         Ok((verdicts, lower, upper, by, errors, findings))
     }
 }

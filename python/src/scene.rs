@@ -1,7 +1,6 @@
 //! Scenes: what the library reads and what is built in code, with the model that was made of it.
 
-use crate::{arrays, error::Trouble};
-use numpy::PyReadonlyArray2;
+use crate::error::Trouble;
 use pyo3::{prelude::*, types::PyDict};
 use pythonize::pythonize;
 use serde::de::DeserializeOwned;
@@ -16,7 +15,7 @@ use voussoir::{
     interface::{Model, prepare_timed},
     limits,
     report::{Inspection, json},
-    scene::{self, BlockSpec, Shape, Source},
+    scene::{self, Shape, Source},
 };
 
 /// A scene.
@@ -117,7 +116,8 @@ fn part<T: DeserializeOwned>(item: &Bound<PyAny>, place: JsonPath) -> PyResult<T
     })
 }
 
-fn steps(start: JsonPath, path: &serde_path_to_error::Path) -> JsonPath {
+/// The same place for people.
+pub fn steps(start: JsonPath, path: &serde_path_to_error::Path) -> JsonPath {
     use serde_path_to_error::Segment;
     path.iter().fold(start, |place, step| match step {
         Segment::Seq { index } => place.index(*index),
@@ -218,63 +218,38 @@ impl Scene {
         Ok(Self { ready: Ready::new(scene, None, said) })
     }
 
-    /// Adds a block of plain values.
-    fn add_block(&mut self, spec: &Bound<PyAny>) -> PyResult<()> {
-        let spec: BlockSpec = part(spec, place(&["blocks"], self.ready.scene.blocks.len()))?;
-        self.change().blocks.push(spec);
-        Ok(())
-    }
-
-    /// Adds a polyhedron: a block of plain values with another shape, corners `n × 3`, loops of
-    /// indices.
-    fn add_polyhedron(
-        &mut self,
-        spec: &Bound<PyAny>,
-        vertices: PyReadonlyArray2<f64>,
-        faces: Vec<Vec<usize>>,
-    ) -> PyResult<()> {
-        let place = place(&["blocks"], self.ready.scene.blocks.len());
-        let spec: BlockSpec = part(spec, place.clone())?;
-        let Some(vertices) = arrays::points(&vertices) else {
-            let place = place.key("shape").key("polyhedron").key("vertices");
-            let error = InputError::at(place, "not an array of shape (n, 3)");
-            return Err(Trouble::from(error).raise(vertices.py()));
-        };
-        self.change()
-            .blocks
-            .push(BlockSpec { shape: Shape::Polyhedron { vertices, faces }, ..spec });
-        Ok(())
-    }
-
-    /// Adds to a list of the scene, or to its materials.
+    /// Adds to a list of the scene.
     fn add(&mut self, list: &str, item: &Bound<PyAny>) -> PyResult<()> {
-        let scene = &*self.ready.scene;
+        macro_rules! push {
+            ($place:expr, $($field:ident).+) => {{
+                let item = part(item, place(&$place, self.ready.scene.$($field).+.len()))?;
+                self.change().$($field).+.push(item);
+            }};
+        }
         match list {
-            "templates" => {
-                let item = part(item, place(&["templates"], scene.templates.len()))?;
-                self.change().templates.push(item);
+            "blocks" => {
+                push!(["blocks"], blocks);
+                let scene = self.change();
+                if matches!(scene.blocks.last(), Some(b) if matches!(b.shape, Shape::Mesh { .. })) {
+                    // Code may read whatever it names.
+                    match read_meshes(scene, Path::new(""), Reach::Anywhere) {
+                        Ok(said) => Arc::make_mut(&mut self.ready.said).extend(said),
+                        Err(e) => {
+                            scene.blocks.pop();
+                            return Err(Trouble::from(e).raise(item.py()));
+                        }
+                    }
+                }
             }
-            "interfaces" => {
-                let item = part(item, place(&["interfaces"], scene.interfaces.len()))?;
-                self.change().interfaces.push(item);
-            }
-            "members" => {
-                let item = part(item, place(&["members"], scene.members.len()))?;
-                self.change().members.push(item);
-            }
-            "dead" => {
-                let item = part(item, place(&["loads", "dead"], scene.loads.dead.len()))?;
-                self.change().loads.dead.push(item);
-            }
-            "live" => {
-                let item = part(item, place(&["loads", "live"], scene.loads.live.len()))?;
-                self.change().loads.live.push(item);
-            }
-            "overrides" => {
-                let at = place(&["joints", "overrides"], scene.joints.overrides.len());
-                let item = part(item, at)?;
-                self.change().joints.overrides.push(item);
-            }
+            "templates" => push!(["templates"], templates),
+            "interfaces" => push!(["interfaces"], interfaces),
+            "members" => push!(["members"], members),
+            "stages" => push!(["stages"], stages),
+            "combinations" => push!(["combinations"], combinations),
+            "overrides" => push!(["joints", "overrides"], joints.overrides),
+            "dead" => push!(["loads", "dead"], loads.dead),
+            "live" => push!(["loads", "live"], loads.live),
+            "masses" => push!(["loads", "masses"], loads.masses),
             _ => return Err(Trouble::Other(format!("a scene has no list {list}")).raise(item.py())),
         }
         Ok(())
@@ -293,6 +268,9 @@ impl Scene {
                 self.change().joints.default = rule;
             }
             "contact" => self.change().contact = part(item, root)?,
+            "require" => self.change().require = part(item, root)?,
+            "site" => self.change().site = part(item, root)?,
+            "train" => self.change().train = part(item, root)?,
             _ => return Err(Trouble::Other(format!("a scene has no {key}")).raise(item.py())),
         }
         Ok(())

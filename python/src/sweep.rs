@@ -1,6 +1,7 @@
 //! Sweeps: a plan, its rows as columns, and what is made of them.
 
 use crate::{
+    arrays,
     error::Trouble,
     scene::{Scene, value},
     wait,
@@ -40,7 +41,7 @@ pub fn sweep_file(
     plan: PathBuf,
     output: PathBuf,
     allow_outside: bool,
-    threads: usize,
+    threads: i64,
     restart: bool,
     progress: Option<&Bound<PyAny>>,
 ) -> PyResult<Rows> {
@@ -62,7 +63,7 @@ pub fn sweep_scene(
     plan: &Bound<PyAny>,
     scene: &Scene,
     output: PathBuf,
-    threads: usize,
+    threads: i64,
     restart: bool,
     progress: Option<&Bound<PyAny>>,
 ) -> PyResult<Rows> {
@@ -81,10 +82,11 @@ fn run(
     py: Python,
     sweep: Sweep,
     output: PathBuf,
-    threads: usize,
+    threads: i64,
     restart: bool,
     progress: Option<&Bound<PyAny>>,
 ) -> PyResult<Rows> {
+    let threads = wait::threads(py, threads)?;
     wait::run(py, progress, move |watch| {
         let (there, total) = (AtomicUsize::new(0), AtomicUsize::new(0));
         let see = |event: Event| {
@@ -113,11 +115,26 @@ fn numbers<'py>(
     number: impl Fn(&RowAnswer) -> Option<f64>,
 ) -> Bound<'py, PyArray1<f64>> {
     let numbers = rows.iter().map(|r| number(&r.answer).unwrap_or(f64::NAN));
-    PyArray1::from_vec(py, numbers.collect())
+    arrays::numbers(py, numbers.collect())
 }
 
 #[pymethods]
 impl Rows {
+    /// What [`restored`](Self::restored) makes the same rows of.
+    fn state(&self, py: Python) -> PyResult<String> {
+        let state = serde_json::to_string(&(&self.header, &self.rows));
+        state.map_err(|e| Trouble::other(e).raise(py))
+    }
+
+    /// Rows of their state.
+    #[staticmethod]
+    fn restored(py: Python, state: &str) -> PyResult<Self> {
+        let read: Result<(Header, Vec<Row>), _> = serde_json::from_str(state);
+        let (header, rows) = read.map_err(|e| Trouble::other(e).raise(py))?;
+        let summary = sweep::summarize(&header, &rows);
+        Ok(Self { header, rows, summary })
+    }
+
     /// Rows that are there.
     fn __len__(&self) -> usize {
         self.rows.len()
@@ -134,7 +151,7 @@ impl Rows {
                 Parameter::Word(_) => None,
             };
             match values().map(number).collect::<Option<Vec<f64>>>() {
-                Some(numbers) => columns.set_item(name, PyArray1::from_vec(py, numbers))?,
+                Some(numbers) => columns.set_item(name, arrays::numbers(py, numbers))?,
                 None => {
                     let words: Vec<String> = values()
                         .map(|p| match p {
@@ -153,7 +170,7 @@ impl Rows {
     fn answers<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let columns = PyDict::new(py);
         let row: Vec<i64> = self.rows.iter().map(|r| r.row as i64).collect();
-        columns.set_item("row", PyArray1::from_vec(py, row))?;
+        columns.set_item("row", arrays::numbers(py, row))?;
         let status: Vec<_> = self.rows.iter().map(|r| r.answer.status.word()).collect();
         columns.set_item("status", status)?;
         columns.set_item("value", numbers(py, &self.rows, |a| a.value))?;
@@ -162,7 +179,7 @@ impl Rows {
         let error: Vec<_> = self.rows.iter().map(|r| r.error.clone()).collect();
         columns.set_item("error", error)?;
         let seconds = self.rows.iter().map(|r| r.seconds).collect();
-        columns.set_item("seconds", PyArray1::from_vec(py, seconds))?;
+        columns.set_item("seconds", arrays::numbers(py, seconds))?;
         Ok(columns)
     }
 

@@ -12,7 +12,10 @@ use std::{
     thread,
     time::Duration,
 };
-use voussoir::deadline::{Cancel, Deadline};
+use voussoir::{
+    deadline::{Cancel, Deadline},
+    error::{InputError, JsonPath},
+};
 
 /// How often signals are looked for. More: Ctrl-C is late. Less: the interpreter is held for
 /// nothing.
@@ -63,6 +66,15 @@ impl Drop for Watch {
         self.cancel.lower();
         IDLE.lock().unwrap_or_else(PoisonError::into_inner).push(self.cancel);
     }
+}
+
+/// A number of threads: 0 for one a processor. More than four a processor are not started.
+pub fn threads(py: Python, asked: i64) -> PyResult<usize> {
+    usize::try_from(asked).map_err(|_| {
+        let path = JsonPath::root().key("threads");
+        let error = InputError::at(path, format!("must be ≥ 0, got {asked}"));
+        Trouble::from(error.hint("0: one a processor")).raise(py)
+    })
 }
 
 /// Does `work` while the interpreter is free. `progress` is called with what the work says, some

@@ -116,7 +116,7 @@ def test_movements(structures: Path) -> None:
     assert without_time(path.to_dict()) == without_time(expected)
     assert path.status == expected["answer"]["path"]["status"]
     assert len(path.parameter) == len(expected["answer"]["curve"]["points"])
-    assert len(path.to_pandas()) == len(path.parameter)
+    assert len(path.to_frame()) == len(path.parameter)
     claimed = path.certificate_at(0)
     assert claimed.claims == "stable" and len(claimed.forces.forces)
 
@@ -157,8 +157,8 @@ def test_earthquakes(structures: Path) -> None:
     assert answer.participation is not None and answer.capacity is not None
     # One block: everything takes part.
     assert abs(answer.participation["e_star"] - 1.0) < 1e-9
-    assert abs(answer.a0 - answer.alpha0.value * 9.81 / answer.confidence) < 1e-9
-    assert len(answer.to_pandas()) == len(answer.participation["masses"])
+    assert abs(answer.a0 - answer.alpha0.value * 9.81 / answer.fc) < 1e-9
+    assert len(answer.to_frame()) == len(answer.participation["masses"])
 
 
 def test_stages(structures: Path) -> None:
@@ -167,9 +167,9 @@ def test_stages(structures: Path) -> None:
     expected = said("stages", arch, "--toward", "1,0")
     assert without_time(answer.to_dict()) == without_time(expected)
     assert isinstance(answer, voussoir.Stages)
-    assert (answer.stand_first, answer.count, answer.worst) == (4, 20, "add v04")
-    assert answer.worst_verdict is voussoir.Verdict.UNSTABLE
-    table = answer.to_pandas()
+    assert (answer.stand_first, answer.stages, answer.worst) == (4, 20, "add v04")
+    assert answer.verdict is voussoir.Verdict.UNSTABLE
+    table = answer.to_frame()
     assert list(table["verdict"][:5]) == ["stable"] * 4 + ["unstable"]
     assert table["tilt_deg"][:4].notna().all()
     frame = structures / "a-frame-stands.json"
@@ -193,8 +193,24 @@ def test_joints_that_yield(structures: Path) -> None:
     assert factors[0] == 0 and ways.shape == (len(factors), 3)
     assert answer.load_factor is not None and answer.residuals is not None
     assert len(answer.frequencies) and answer.events
-    assert list(answer.to_pandas()["normal_force"]) == pytest.approx([39240.0])
+    assert list(answer.to_frame()["normal_force"]) == pytest.approx([39240.0])
     assert voussoir.state(bed, dead_only=True).load_factor is None
+
+
+@pytest.mark.filterwarnings("ignore::voussoir.SceneWarning")
+def test_what_is_required(structures: Path) -> None:
+    bridge = structures / "bridge-two-spans.json"
+    answer = voussoir.combinations(bridge, {"moving": {"law": "associative"}}, only=["STR"])
+    expected = said("combinations", bridge, "--law", "associative", "--only", "STR")
+    assert without_time(answer.to_dict()) == without_time(expected)
+    assert answer.governing == "STR" and len(answer.to_frame()) == 1
+    prestwood = structures / "bridge-prestwood.json"
+    train = structures / "bridge-single-axle.json"
+    required = voussoir.moving(train, require=150, law="associative").required
+    assert required is not None and required.quantity == "load_factor" and required.least == 150
+    required = voussoir.limit(prestwood, require=1e9, law="associative").required
+    assert required is not None and required.met is False
+    assert voussoir.assess(bridge).required is None
 
 
 def test_packings_and_sweeps(structures: Path, tmp_path: Path) -> None:

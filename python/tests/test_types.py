@@ -36,3 +36,19 @@ def test_the_package_and_the_notebooks_are_strictly_typed(tmp_path: Path) -> Non
     run("-m", "mypy", *config, "package/voussoir", "package/compas_voussoir")
     assert len(files) == 6
     run("-m", "mypy", *config, *files)
+
+
+def test_misspelt_keys_and_values_are_type_errors(tmp_path: Path) -> None:
+    pytest.importorskip("mypy")
+    mistakes = [
+        "voussoir.Arch(radius=1, thicknes=0.1, thickness=0.1, depth=1, voussoirs=9)",
+        'voussoir.Arch(radius=1, thickness=0.1, depth=1, voussoirs=9, profile="gothic")',
+        "voussoir.Scene().joint(frction=0.5)",
+        'voussoir.assess("a.json").verdic',
+        'voussoir.kinematic("a.json").alpha0.valu',
+    ]
+    file = tmp_path / "mistakes.py"
+    file.write_text("\n".join(["import voussoir", *mistakes]) + "\n")
+    line = [sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(tmp_path / "cache"), str(file)]
+    told = subprocess.run(line, capture_output=True, text=True, cwd=tmp_path).stdout
+    assert [n for n in range(2, 7) if f"mistakes.py:{n}: error" in told] == [2, 3, 4, 5, 6], told

@@ -147,13 +147,13 @@ def test_piles_from_arrays_are_scenes() -> None:
     turn = np.tile([1.0, 0, 0, 0], (14, 11, 1))
     told = piles.assess(which, at, turn, margin=True, threads=2)
     assert told.stands.tolist() == [bool(5 * shift < 0.2) for shift in shifts]
-    assert set(told.by) == {"statics"} and not told.errors and len(told.to_pandas()) == 14
+    assert set(told.by) == {"statics"} and not told.errors and len(told.to_frame()) == 14
     assert not told.findings
     sunk = at.copy()
     sunk[0, 4:, 2] -= 0.003
     told_sunk = piles.assess(which, sunk, turn)
     assert list(told_sunk.findings) == [0] and "overlap" in told_sunk.findings[0][0]
-    assert "overlap" in told_sunk.to_pandas()["findings"][0]
+    assert "overlap" in told_sunk.to_frame()["findings"][0]
     # The pile of ten tips about its foot: half its width less the way of its centre, over its height.
     expected = np.minimum((0.2 - 4.5 * shifts) / 1.0, 0.6)
     assert (told.margins[told.stands] <= expected[told.stands] + 1e-12).all()

@@ -1,4 +1,8 @@
-"""Answers as typed objects. Numbers are those of the command, to the last bit."""
+"""Answers as objects. Numbers are those of the command, to the last bit.
+
+What stands under the keys of an answer is generated (``_answer_keys``); here is what Python adds:
+arrays, certificates, files, tables and plots.
+"""
 
 from __future__ import annotations
 
@@ -6,180 +10,133 @@ import html
 import os
 from collections.abc import Iterator
 from dataclasses import dataclass
-from enum import Enum
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
+from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias, TypeVar, overload
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from . import _answer_keys as keys
+from ._record import Verdict, _made
 from ._scene import Scene
 
 if TYPE_CHECKING:
     import pandas
+    from matplotlib.axes import Axes
 
 Array: TypeAlias = npt.NDArray[np.float64]
+T = TypeVar("T")
+S = TypeVar("S", bound=np.generic)
 
 
-class Verdict(str, Enum):
-    """Does it stand?"""
-
-    STABLE = "stable"
-    """Forces inside the friction cones balance every block, and the loads produce them."""
-    CONDITIONAL = "conditional"
-    """Such forces exist, but they need self-stress. Not safe."""
-    UNSTABLE = "unstable"
-    """It falls: proved by a mechanism."""
-    UNDECIDED = "undecided"
-    """Neither proof closes; see ``answer.doubt``."""
-
-    def __str__(self) -> str:
-        return self.value
-
-    def __bool__(self) -> bool:
-        """Whether it stands: true for ``stable`` alone."""
-        return self is Verdict.STABLE
-
-
-@dataclass(frozen=True)
-class Bracket:
-    """A number between two ends."""
-
-    lower: float
-    """The lower end; minus infinity where there is none."""
-    upper: float
-    """The upper end; infinity where there is none."""
-
-
-@dataclass(frozen=True)
-class Bound:
-    """A load factor for joints that open as they slide: never below the one with dry friction."""
-
-    status: str
-    """``found``, ``unbounded``, ``impossible``, ``undecided``."""
-    value: float | None
-    lower: float | None
-    upper: float | None
-
-    @classmethod
-    def _of(cls, data: dict[str, Any]) -> Bound:
-        return cls(data["status"], data.get("value"), data.get("lower"), data.get("upper"))
-
-
-@dataclass(frozen=True)
-class LoadFactor:
-    """A load factor, or a tilt: its tangent or its angle in degrees."""
-
-    status: str
-    """``found``, ``unbounded``, ``impossible``, ``at_least``, ``not_at_rest``, ``undecided``."""
-    law: str
-    """The law of sliding that ``value`` holds for: ``coulomb`` is dry friction."""
-    value: float | None
-    """The one to use; ``None`` where none was found."""
-    lower: float | None
-    """Lower end of its bracket."""
-    upper: float | None
-    """Upper end of its bracket."""
-    found: str | None
-    """How the value with dry friction was found."""
-    associative: Bound
-    """The bound."""
-
-    @classmethod
-    def _of(cls, data: dict[str, Any]) -> LoadFactor:
-        return cls(
-            data["status"],
-            data["law"],
-            data.get("value"),
-            data.get("lower"),
-            data.get("upper"),
-            data.get("found"),
-            Bound._of(data["associative"]),
-        )
-
-    def __float__(self) -> float:
-        """The value; infinite where there is no limit, not a number where there is none."""
-        if self.value is not None:
-            return self.value
-        return float("inf") if self.status == "unbounded" else float("nan")
+@overload
+def fixed(values: Any) -> Array: ...
+@overload
+def fixed(values: Any, dtype: type[S]) -> npt.NDArray[S]: ...
+def fixed(values: Any, dtype: Any = np.float64) -> Any:
+    """An array that is only read."""
+    array = np.asarray(values, dtype=dtype)
+    array.setflags(write=False)
+    return array
 
 
 @dataclass(frozen=True)
 class Finding:
-    """Something to be known although the work went on."""
+    """Something to know about a scene or its answer.
+
+    Attributes
+    ----------
+    code : str
+        What kind of thing it is: ``units``, ``overlap``, ``near_miss``, ...
+    text : str
+        One sentence with its numbers.
+    is_implausible : bool
+        Whether another scene is likely meant.
+    is_mistake : bool
+        Whether it is likely a mistake in the scene.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> scene = voussoir.Scene(friction=0.6, density=2400).box("ground", (1, 1, 1), support=True)
+    >>> found = voussoir.check(scene.box("block", (1, 1, 1), at=(0, 0, 1.004)))
+    >>> found.findings[0].code
+    'near_miss'
+    """
 
     code: str
-    """What kind of thing it is: ``units``, ``overlap``, ``near_miss``, …"""
     text: str
-    """One sentence with its numbers."""
     is_implausible: bool
-    """Whether another scene is likely meant."""
     is_mistake: bool
-    """Whether it is likely a mistake in the scene."""
 
     def __str__(self) -> str:
         return self.text
 
 
-@dataclass(frozen=True)
-class Doubt:
-    """Why an answer is undecided."""
-
-    cause: str
-    evidence: str
-    next: str
-    """The one thing to do."""
-
-
-@dataclass(frozen=True)
-class JointMotion:
-    """A joint of a mechanism."""
-
-    between: tuple[str, str]
-    motion: str
-    """``hinge``, ``slide``, ``hinge_and_slide``, ``part``, ``crush``."""
-    at: tuple[float, float, float]
-    """Where, m."""
-
-
-@dataclass(frozen=True)
-class Mechanism:
-    """How it fails, in words; ``Rates`` has it in numbers."""
-
-    moving: list[str]
-    """Moving blocks, the fastest first."""
-    joints: list[JointMotion]
-    members: list[dict[str, Any]]
-    """Members that yield, go slack or slide."""
-
-
 @dataclass(frozen=True, eq=False)
 class Rates:
-    """The motion of a mechanism (any common scale); blocks at rest are left out."""
+    """The rates of a mechanism, to any common scale; blocks at rest are left out.
+
+    Attributes
+    ----------
+    blocks : list of str
+        Ids, n of them.
+    velocity : array of shape (n, 3)
+        Velocities of the centres of mass.
+    spin : array of shape (n, 3)
+        Spins.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> scene = voussoir.Scene(friction=0.6, density=2400).box("ground", (1, 1, 1), support=True)
+    >>> rates = voussoir.assess(scene.box("block", (1, 1, 1), at=(0.6, 0, 1))).certificate.rates
+    >>> rates.blocks, bool(rates.velocity[0, 2] < 0)
+    (['block'], True)
+    """
 
     blocks: list[str]
-    """Ids, n of them."""
     velocity: Array
-    """Of the centres of mass, shape (n, 3)."""
     spin: Array
-    """Shape (n, 3)."""
 
 
 @dataclass(frozen=True, eq=False)
 class Forces:
-    """The forces of a certificate. They act on the second block of each joint."""
+    """The forces of a certificate, on the second block of each of m joints, at n contact points.
+
+    Iteration gives joint by joint: its two blocks, its points, its forces (views, not copies).
+
+    Attributes
+    ----------
+    between : list of (str, str)
+        The two blocks of each joint.
+    offsets : array of shape (m + 1,)
+        Joint ``k`` has the points ``offsets[k]`` to ``offsets[k + 1]``.
+    points : array of shape (n, 3)
+        Contact points, m.
+    forces : array of shape (n, 3)
+        Force at each point, N.
+    couples : array of shape (n, 3) or (0, 3)
+        Couple at each point, N·m, where there are any.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> scene = voussoir.Scene(friction=0.6, density=1000).box("ground", (2, 2, 1), support=True)
+    >>> forces = voussoir.assess(scene.box("block", (1, 1, 1), at=(0, 0, 1))).certificate.forces
+    >>> for (a, b), points, own in forces:
+    ...     print(a, b, points.shape, own.sum(axis=0).round(6) + 0.0)
+    ground block (4, 3) [   0.    0. 9810.]
+    >>> forces.resultants().shape
+    (1, 3)
+    """
 
     between: list[tuple[str, str]]
-    """The two blocks of each joint, m of them."""
     offsets: npt.NDArray[np.int64]
-    """Joint ``k`` has the points ``offsets[k]`` to ``offsets[k + 1]``; shape (m + 1,)."""
     points: Array
-    """Contact points, m; shape (n, 3)."""
     forces: Array
-    """Force at each point, N; shape (n, 3)."""
     couples: Array
-    """Couple at each point, N·m; shape (n, 3), or (0, 3) where there are none."""
 
     def __len__(self) -> int:
         return len(self.between)
@@ -196,7 +153,7 @@ class Forces:
         total: Array = sums[self.offsets[1:]] - sums[self.offsets[:-1]]
         return total
 
-    def to_pandas(self) -> pandas.DataFrame:
+    def to_frame(self) -> pandas.DataFrame:
         """One row a contact point: ``a``, ``b``, ``joint``, ``x``, ``y``, ``z`` (m), ``fx``, ``fy``,
         ``fz`` (N)."""
         import pandas
@@ -213,51 +170,103 @@ class Forces:
 
 @dataclass(frozen=True, eq=False)
 class Certificate:
-    """The evidence for an answer, checked on the scene by nothing that found it."""
+    """The evidence for an answer, checked on the scene by nothing that found it.
+
+    Attributes
+    ----------
+    claim : dict or None
+        What is claimed; ``None`` where it is undecided.
+    verified : list of str
+        What the check found, in words and numbers.
+    forces : Forces
+        The static side: forces that balance every block.
+    rates : Rates
+        The kinematic side: a mechanism.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> arch = voussoir.Scene("Arch", friction=0.7, density=2400)
+    >>> arch.add(voussoir.Arch(radius=1, thickness=0.15, depth=1, voussoirs=9))
+    <voussoir.Scene 'Arch': 0 blocks, 1 template>
+    >>> certificate = voussoir.assess(arch).certificate
+    >>> certificate.claims, len(certificate.forces)
+    ('stable', 10)
+    """
 
     claim: dict[str, Any] | None
-    """What is claimed; ``None`` where it is undecided."""
     verified: list[str]
-    """What the check found, in words and numbers."""
     forces: Forces
-    """The static side."""
     rates: Rates
-    """The kinematic side."""
 
     @property
     def claims(self) -> str | None:
-        """What is claimed, in a word: ``stable``, ``load_factor``, …"""
+        """What is claimed, in a word: ``stable``, ``load_factor``, ..."""
         return next(iter(self.claim), None) if isinstance(self.claim, dict) else self.claim
 
 
 @dataclass(frozen=True, eq=False)
 class Blocks:
-    """The blocks of a scene as it was resolved, n of them."""
+    """The blocks of a scene as it was resolved, n of them.
+
+    Attributes
+    ----------
+    ids : list of str
+        Their ids.
+    supports : array of bool, shape (n,)
+        Whether each is held in place.
+    mass : array of shape (n,)
+        kg.
+    centroid : array of shape (n, 3)
+        Centres of mass, m.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> scene = voussoir.Scene(friction=0.6, density=1000).box("ground", (2, 2, 1), support=True)
+    >>> blocks = voussoir.assess(scene.box("block", (1, 1, 1), at=(0, 0, 1))).blocks
+    >>> blocks.ids, blocks.supports.tolist(), blocks.mass.tolist()
+    (['ground', 'block'], [True, False], [4000.0, 1000.0])
+    """
 
     ids: list[str]
     supports: npt.NDArray[np.bool_]
-    """Whether each is held in place; shape (n,)."""
     mass: Array
-    """kg; shape (n,)."""
     centroid: Array
-    """Centres of mass, m; shape (n, 3)."""
 
 
 @dataclass(frozen=True)
 class Verification:
-    """What the check of a saved answer found, from its scene alone."""
+    """What the check of a saved answer found, from its scene alone. True where it is confirmed.
+
+    Attributes
+    ----------
+    confirmed : bool
+        Whether it claims something, every part holds, and nothing stayed open.
+    grade : str or dict
+        The weakest of what it rests on: ``"exact"``, ``{"to_rounding": number}``, ``"computed"``
+        (and computed again), ``"unchecked"``, ``"refuted"``, ``"nothing"`` (nothing is claimed).
+    parts : list of dict
+        ``title``, ``grade``, ``fails``, ``holds``, ``open`` of every part.
+    answer : dict or None
+        The answer as it follows from the evidence.
+    text : str
+        All of it, in words.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> scene = voussoir.Scene(friction=0.6, density=1000).box("ground", (2, 2, 1), support=True)
+    >>> answer = voussoir.assess(scene.box("block", (1, 1, 1), at=(0, 0, 1)))
+    >>> bool(voussoir.check(answer))
+    True
+    """
 
     confirmed: bool
-    """Whether it claims something, every part holds, and nothing stayed open."""
     grade: Any
-    """The weakest of what it rests on: ``"exact"``, ``{"to_rounding": number}``, ``"computed"`` (and
-    computed again), ``"unchecked"``, ``"refuted"``, ``"nothing"`` (nothing is claimed)."""
     parts: list[dict[str, Any]]
-    """``title``, ``grade``, ``fails``, ``holds``, ``open`` of every part."""
     answer: dict[str, Any] | None
-    """The answer as it follows from the evidence."""
     text: str
-    """All of it, in words."""
 
     def __bool__(self) -> bool:
         return self.confirmed
@@ -267,7 +276,23 @@ class Verification:
 
 
 class Answer:
-    """What every answer has. ``str(answer)`` is what the command prints."""
+    """What every answer has. ``str(answer)`` is what the command prints.
+
+    Answers are values: their arrays are only read, and they can be copied and pickled. An answer is
+    proved again from its scene when a pickle is read.
+
+    Examples
+    --------
+    >>> import pickle, voussoir
+    >>> arch = voussoir.Scene("Arch", friction=0.7, density=2400)
+    >>> arch.add(voussoir.Arch(radius=1, thickness=0.15, depth=1, voussoirs=9))
+    <voussoir.Scene 'Arch': 0 blocks, 1 template>
+    >>> answer = voussoir.assess(arch)
+    >>> answer.verdict.value, answer.forces.shape, answer.offsets[:3].tolist()
+    ('stable', (40, 3), [0, 4, 8])
+    >>> pickle.loads(pickle.dumps(answer)).verdict is answer.verdict
+    True
+    """
 
     question: ClassVar[str] = ""
 
@@ -311,11 +336,15 @@ class Answer:
         return self._answer.get("proof")
 
     @property
-    def sensitivity(self) -> list[dict[str, Any]]:
-        """How the value changes with every number that was assumed, the one that matters most first;
-        empty where that was not asked. Keys as in the JSON of the command."""
-        found: dict[str, Any] = self._answer.get("sensitivity", {})
-        return list(found.get("numbers", []))
+    def sensitivity(self) -> keys.Sensitivity | None:
+        """How the value changes with every number that was assumed, the one that matters most
+        first; ``None`` where that was not asked."""
+        return self._part("sensitivity", keys.Sensitivity)
+
+    @property
+    def required(self) -> keys.Required | None:
+        """What was required of it by the question or the scene, and whether that is met."""
+        return self._part("required", keys.Required)
 
     @property
     def warnings(self) -> list[Finding]:
@@ -323,10 +352,9 @@ class Answer:
         return [Finding(*each) for each in self._core.warnings()]
 
     @property
-    def doubt(self) -> Doubt | None:
+    def doubt(self) -> keys.Doubt | None:
         """Why it is undecided, where it is."""
-        doubt = self._core.part("doubt")
-        return None if doubt is None else Doubt(doubt["cause"], doubt["evidence"], doubt["next"])
+        return self._part("doubt", keys.Doubt)
 
     @property
     def scene(self) -> Scene:
@@ -337,7 +365,7 @@ class Answer:
     def blocks(self) -> Blocks:
         """The blocks as they were resolved."""
         ids, supports, mass, centroid = self._core.blocks()
-        return Blocks(ids, np.asarray(supports, dtype=np.bool_), mass, centroid)
+        return Blocks(ids, fixed(supports, np.bool_), mass, centroid)
 
     def _certificate(self, which: str) -> Certificate | None:
         told = self._core.claim(which)
@@ -388,21 +416,29 @@ class Answer:
         return self._core.frames()[1]
 
     @property
-    def mechanism(self) -> Mechanism | None:
-        """How it fails, where that is part of the answer."""
-        words = self._core.part("mechanism")
-        if words is None:
-            return None
-        joints = [
-            JointMotion(tuple(j["between"]), j["motion"], tuple(j["at"])) for j in words["joints"]
-        ]
-        return Mechanism(list(words["moving"]), joints, list(words.get("members", ())))
+    def mechanism(self) -> keys.Mechanism | None:
+        """How it fails, where that is part of the answer; ``certificate.rates`` has its rates."""
+        return self._part("mechanism", keys.Mechanism)
 
     @property
-    def members(self) -> list[dict[str, Any]]:
+    def members(self) -> list[keys.MemberLine]:
         """The forces in ties, struts and the like, of the forces that prove the answer."""
-        members: list[dict[str, Any]] = self._core.part("members")
+        members: list[keys.MemberLine] = _made(list[keys.MemberLine], self._core.part("members"))
         return members
+
+    def _part(self, name: str, kind: type[T]) -> T | None:
+        """A part of the result, of this class; ``None`` where there is none."""
+        part = self._core.part(name)
+        return None if part is None else _made(kind, part)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (_restored, (type(self), self._core.state()))
+
+    def __copy__(self) -> Answer:
+        return self
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Answer:
+        return self
 
     # ------------------------------------------------------------------- files
 
@@ -455,13 +491,62 @@ class Answer:
         """A table with commas: ``joints``, ``blocks``, ``members``."""
         return self._core.csv(which)
 
-    def to_pandas(self) -> pandas.DataFrame:
-        """The forces of the certificate, one row a contact point."""
-        return self.certificate.forces.to_pandas()
+    def to_frame(self) -> pandas.DataFrame:
+        """A table of pandas: the forces of the certificate, one row a contact point.
+
+        Returns
+        -------
+        pandas.DataFrame
+            ``a``, ``b``, ``joint``, ``x``, ``y``, ``z`` (m), ``fx``, ``fy``, ``fz`` (N).
+
+        Raises
+        ------
+        ImportError
+            pandas is not installed.
+        """
+        return self.certificate.forces.to_frame()
 
     def check(self, scene: Scene | None = None) -> Verification:
-        """Prove the answer from its scene, or from another."""
+        """Prove the answer from its scene, or from another.
+
+        Parameters
+        ----------
+        scene : Scene, optional
+            Another scene that it is to hold for.
+        """
         return _verification(self._core.verify(None if scene is None else scene._core))
+
+    # -------------------------------------------------------------- to look at
+
+    def plot(self, axes: Axes | None = None, *, view: str = "front") -> Axes:
+        """Draw it with matplotlib: blocks, displaced by the mechanism where it falls, and the
+        resultants of the joints.
+
+        Parameters
+        ----------
+        axes : matplotlib.axes.Axes, optional
+            Where to draw; new ones where none are given.
+        view : {"front", "back", "left", "right", "top"}
+            From where.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+
+        Raises
+        ------
+        ImportError
+            matplotlib is not installed.
+        """
+        from ._plot import structure
+
+        return structure(self, axes, view)
+
+    def show(self) -> None:
+        """Show the page: in a notebook below the cell, elsewhere in a browser."""
+        from ._plot import page
+
+        page(self)
 
     def _repr_svg_(self) -> str:
         return self._core.svg()
@@ -475,6 +560,10 @@ class Answer:
         )
 
 
+def _restored(kind: type[Answer], state: Any) -> Answer:
+    return kind(_core.Answer.restored(*state))
+
+
 def _verification(told: tuple[dict[str, Any], str]) -> Verification:
     data, text = told
     confirmed, grade, parts = data["confirmed"], data["grade"], data["parts"]
@@ -486,47 +575,45 @@ def _write(path: str | os.PathLike[str], text: str) -> None:
         file.write(text)
 
 
-class Assessment(Answer):
-    """Does it stand under its dead load?"""
+class Assessment(keys.AssessmentKeys, Answer):
+    """The answer of :func:`assess`.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> arch = voussoir.Scene("Arch", friction=0.7, density=2400)
+    >>> arch.add(voussoir.Arch(radius=1, thickness=0.15, depth=1, voussoirs=9))
+    <voussoir.Scene 'Arch': 0 blocks, 1 template>
+    >>> answer = voussoir.assess(arch)
+    >>> answer.verdict.value, answer.equilibrium_error.lower, answer.law
+    ('stable', 0.0, 'coulomb')
+    """
 
     question = "assess"
 
     @property
-    def verdict(self) -> Verdict:
-        """Does it stand?"""
-        return Verdict(self._answer["verdict"])
-
-    @property
-    def equilibrium_error(self) -> Bracket:
-        """The least equilibrium error, in multiples of gravity: 0 where admissible forces exist."""
-        return _bracket(self._answer["equilibrium_error"])
-
-    @property
-    def law(self) -> str | None:
-        """It stands: for which law of sliding."""
-        return self._answer.get("law")
-
-    @property
-    def simulation(self) -> dict[str, Any] | None:
+    def simulation(self) -> keys.Simulated | None:
         """What happened in time, where that was asked as well."""
-        seen: dict[str, Any] | None = self._core.part("simulation")
-        return seen
+        return self._part("simulation", keys.Simulated)
 
 
-def _bracket(data: dict[str, Any]) -> Bracket:
-    lower, upper = data.get("lower"), data.get("upper")
-    return Bracket(-np.inf if lower is None else lower, np.inf if upper is None else upper)
+class Limit(keys.LimitKeys, Answer):
+    """The answer of :func:`limit`.
 
-
-class Limit(Answer):
-    """How large may the live load grow?"""
+    Examples
+    --------
+    >>> import voussoir
+    >>> table = voussoir.Scene("Table", friction=0.6, density=2400)
+    >>> table = table.box("ground", (2, 2, 0.2), at=(0, 0, -0.1), support=True)
+    >>> table = table.box("block", (0.4, 0.4, 1), at=(0, 0, 0.5))
+    >>> answer = voussoir.limit(table.load("live", weight=(1, 0, 0)))
+    >>> answer.load_factor.status, round(answer.load_factor.value, 6), answer.verdict.value
+    ('found', 0.4, 'stable')
+    >>> answer.mechanism.moving
+    ['block']
+    """
 
     question = "limit"
-
-    @property
-    def load_factor(self) -> LoadFactor:
-        """The load factor on the live load."""
-        return LoadFactor._of(self._answer["load_factor"])
 
     @cached_property
     def dry(self) -> Certificate | None:
@@ -539,141 +626,118 @@ class Limit(Answer):
         return self._certificate("dead_load")
 
 
-class Moving(Answer):
-    """How heavy may a train be? The least load factor of all its positions is the answer."""
+class Moving(keys.MovingKeys, Answer):
+    """The answer of :func:`moving`: the least of all positions of the train.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> span = voussoir.BridgeSpan(clear_span=6, rise=1.5, thickness=0.3, voussoirs=20)
+    >>> fill = voussoir.Fill(cover=0.3, unit_weight=18_000)
+    >>> bridge = voussoir.Scene("Bridge", friction=0.6, density=2000)
+    >>> bridge = bridge.add(voussoir.Bridge(spans=[span], width=3, fill=fill))
+    >>> axle = voussoir.Axle(at=0, force=1000)
+    >>> bridge = bridge.add(voussoir.Train(axles=[axle], path=(-3, 3), step=1))
+    >>> answer = voussoir.moving(bridge, law="associative")
+    >>> round(answer.load_factor.value, 1), answer.travel
+    (203.1, 'forward')
+    """
 
     question = "moving"
 
-    @property
-    def _own(self) -> dict[str, Any]:
-        own: dict[str, Any] = self._answer["moving"]
-        return own
 
-    @property
-    def load_factor(self) -> LoadFactor:
-        """The least load factor on the forces of the axles."""
-        return LoadFactor._of(self._own["load_factor"])
+class Tilt(keys.TiltKeys, Answer):
+    """The answer of :func:`tilt`: the least of all directions.
 
-    @property
-    def x(self) -> float:
-        """Where the train's origin is there, m."""
-        return float(self._own["x"])
-
-    @property
-    def travel(self) -> str:
-        """Which way it goes there: ``forward`` (towards +x) or ``backward``."""
-        return str(self._own["travel"])
-
-    @property
-    def axles(self) -> list[dict[str, Any]]:
-        """The axles on the spans there: ``axle`` (from 0), ``x`` (m), ``force`` (N), ``share``."""
-        axles: list[dict[str, Any]] = self._own["axles"]
-        return axles
-
-
-class Tilt(Answer):
-    """At what tilt of the ground does it fall? The least of all directions is the answer."""
+    Examples
+    --------
+    >>> import voussoir
+    >>> table = voussoir.Scene("Table", friction=0.6, density=2400)
+    >>> table = table.box("ground", (2, 2, 0.2), at=(0, 0, -0.1), support=True)
+    >>> table = table.box("block", (0.4, 0.4, 1), at=(0, 0, 0.5))
+    >>> answer = voussoir.tilt(table, toward=[(1, 0), (0, 1)])
+    >>> round(answer.tan_tilt.value, 6), answer.toward, len(answer.directions)
+    (0.4, (1.0, 0.0, 0.0), 2)
+    """
 
     question = "tilt"
 
     @property
-    def tilt_deg(self) -> LoadFactor:
-        """The tilt in degrees."""
-        return LoadFactor._of(self._answer["tilt_deg"])
-
-    @property
-    def tan_tilt(self) -> LoadFactor:
-        """Its tangent: the load factor on the weight sideways."""
-        return LoadFactor._of(self._answer["tan_tilt"])
-
-    @property
-    def toward(self) -> tuple[float, float, float]:
-        """The direction of the least tilt."""
-        x, y, z = self._answer["toward"]
-        return (x, y, z)
-
-    @property
-    def directions(self) -> list[tuple[tuple[float, float, float], LoadFactor]]:
+    def directions(self) -> list[tuple[tuple[float, float, float], keys.LoadFactor]]:
         """Every direction asked for, with its tilt in degrees."""
         listed = self._core.part("directions") or [self._answer]
-        return [(tuple(d["toward"]), LoadFactor._of(d["tilt_deg"])) for d in listed]
-
-
-@dataclass(frozen=True)
-class CriticalValue:
-    """A value at which the verdict flips, between the nearest proved ones."""
-
-    value: float
-    lower: float
-    """The nearest value below whose verdict is proved."""
-    upper: float
-    """The nearest value above whose verdict is proved."""
-    below: Verdict
-    """The verdict below."""
-    above: Verdict
-    """The verdict above."""
+        return [(tuple(d["toward"]), keys.LoadFactor._of(d["tilt_deg"])) for d in listed]
 
 
 class Critical(Answer):
-    """At what value of a number in the scene does the verdict flip?"""
+    """The answer of :func:`critical`.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> arch = voussoir.Scene("Arch", friction=0.7, density=2400)
+    >>> arch.add(voussoir.Arch(radius=1, thickness=0.15, depth=1, voussoirs=9))
+    <voussoir.Scene 'Arch': 0 blocks, 1 template>
+    >>> thickness = "/templates/0/arch/thickness"
+    >>> answer = voussoir.critical(arch, thickness, (0.05, 0.2), scan=4, law="associative")
+    >>> answer.values[0].below.value, answer.values[0].above.value, bool(0.09 < answer.value < 0.11)
+    ('unstable', 'stable', True)
+    """
 
     question = "critical"
 
     @property
-    def values(self) -> list[CriticalValue]:
-        """The flips, in order."""
-        return [
-            CriticalValue(
-                c["value"], c["lower"], c["upper"], Verdict(c["below"]), Verdict(c["above"])
-            )
-            for c in self._answer["critical"]
-        ]
+    def values(self) -> list[keys.CriticalValue]:
+        """Every value at which the verdict changes, in order."""
+        return [keys.CriticalValue._of(c) for c in self._answer["critical"]]
 
     @property
     def value(self) -> float | None:
-        """The first flip; ``None`` where there is none."""
+        """The first of them; ``None`` where there is none."""
         return self.values[0].value if self.values else None
 
+    @cached_property
+    def search(self) -> keys.CriticalResult:
+        """The scan and both sides of every value."""
+        return keys.CriticalResult._of(self._core.part("critical"))
+
     @property
-    def scan(self) -> list[dict[str, Any]]:
+    def scan(self) -> list[keys.ScanPoint]:
         """Every value that was scanned, with its verdict."""
-        scan: list[dict[str, Any]] = self._core.part("critical")["scan"]
-        return scan
+        return self.search.scan
+
+    def to_frame(self) -> pandas.DataFrame:
+        """The scan, one row a value: ``value``, ``verdict``, ends of the equilibrium error."""
+        import pandas
+
+        return pandas.DataFrame(
+            {
+                "value": [p.value for p in self.scan],
+                "verdict": [None if p.verdict is None else p.verdict.value for p in self.scan],
+            }
+        )
 
 
-class Thrust(Answer):
-    """How hard does it push a support, or what is the force in a member, at least and at most?"""
+class Thrust(keys.ThrustKeys, Answer):
+    """The answer of :func:`thrust`. Where the scene does not stand there is no range.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> arch = voussoir.Scene("Arch", friction=0.7, density=2400)
+    >>> arch.add(voussoir.Arch(radius=1, thickness=0.15, depth=1, voussoirs=9))
+    <voussoir.Scene 'Arch': 0 blocks, 1 template>
+    >>> answer = voussoir.thrust(arch)
+    >>> answer.support, bool(0 < answer.least.value < answer.greatest.value)
+    ('springer_left', True)
+    """
 
     question = "thrust"
 
     @property
-    def _thrust(self) -> dict[str, Any] | None:
-        return self._answer.get("thrust")
-
-    @property
     def stands(self) -> bool:
         """Whether there is a range at all; where not, ``verdict`` says why."""
-        return self._thrust is not None
-
-    @property
-    def least(self) -> Bound | None:
-        """The least thrust, N."""
-        return None if self._thrust is None else Bound._of(self._thrust["least"])
-
-    @property
-    def greatest(self) -> Bound | None:
-        """The greatest thrust, N."""
-        return None if self._thrust is None else Bound._of(self._thrust["greatest"])
-
-    @property
-    def support(self) -> str | None:
-        """The support that is pushed."""
-        return None if self._thrust is None else self._thrust.get("support")
-
-    @property
-    def geometric_factor(self) -> Any:
-        """The geometric safety factor, where it was asked and found."""
-        return None if self._thrust is None else self._thrust.get("geometric_factor")
+        return "thrust" in self._answer
 
     @cached_property
     def certificate(self) -> Certificate:
@@ -687,15 +751,25 @@ class Thrust(Answer):
         """The evidence for the greatest thrust."""
         return self._certificate("greatest")
 
+    @cached_property
+    def line_of_thrust(self) -> keys.ThrustResult | None:
+        """The lines of thrust of the least and of the greatest thrust, section by section."""
+        return self._part("thrust", keys.ThrustResult)
 
-class Path(Answer):
-    """A movement followed: of supports (``settle``), or of the structure under its live load
-    (``push``)."""
 
-    @property
-    def _path(self) -> dict[str, Any]:
-        path: dict[str, Any] = self._answer["path"]
-        return path
+class Path(keys.PathKeys, Answer):
+    """The answer of :func:`settle` and :func:`push`: a movement followed point by point.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> table = voussoir.Scene("Table", friction=0.6, density=2400)
+    >>> table = table.box("ground", (2, 2, 0.2), at=(0, 0, -0.1), support=True)
+    >>> table = table.box("block", (0.4, 0.4, 1), at=(0, 0, 0.5)).load("live", weight=(1, 0, 0))
+    >>> answer = voussoir.push(table, ("block", (0, 0, 1)), (1, 0, 0))
+    >>> answer.status, round(answer.value, 4), answer.parameter.shape == answer.load_factor.shape
+    ('vanishes', 0.3857, True)
+    """
 
     @property
     def question(self) -> str:  # type: ignore[override]
@@ -703,59 +777,45 @@ class Path(Answer):
         return str(self._core.question())
 
     @property
-    def status(self) -> str:
-        """``reached``, ``falls``, ``vanishes``, ``slides``, ``open``."""
-        return str(self._path["status"])
-
-    @property
-    def value(self) -> float | None:
-        """The last value of the parameter that is proved: a share of the movement, or a way in m."""
-        return self._path.get("value")
-
-    @property
-    def falls_at(self) -> float | None:
-        """The value at which it is proved to fall."""
-        return self._path.get("falls_at")
-
-    @property
-    def least_reaction(self) -> dict[str, float] | None:
-        """What the supports are pushed with as they begin to move."""
-        return self._path.get("least_reaction")
-
-    @property
     def why(self) -> str | None:
         """Why it was not followed any further."""
-        return self._path.get("why")
+        return self._part("why", keys.Why).path  # type: ignore[union-attr]
 
     @cached_property
-    def _result(self) -> dict[str, Any]:
-        result: dict[str, Any] = self._core.part("path")
-        return result
+    def result(self) -> keys.PathResult:
+        """All points and events."""
+        return keys.PathResult._of(self._core.part("path"))
 
     @property
-    def events(self) -> list[dict[str, Any]]:
+    def events(self) -> list[keys.PathEvent]:
         """What happened on the way: hinges that open and close, jumps, the fall."""
-        events: list[dict[str, Any]] = self._result["events"]
-        return events
+        return self.result.events
 
-    @property
+    @cached_property
     def parameter(self) -> Array:
-        """The parameter at every point of the curve; shape (n,)."""
-        return np.array([p["value"] for p in self._result["points"]], dtype=np.float64)
+        """The parameter at every point of the curve: a share of the movement, or a displacement
+        in m; shape (n,)."""
+        return fixed([p.value for p in self.result.points])
 
-    @property
+    @cached_property
     def load_factor(self) -> Array:
         """The load factor at every point of the curve (NaN for ``settle``); shape (n,)."""
-        points = self._result["points"]
-        return np.array([p.get("load_factor", np.nan) for p in points], dtype=np.float64)
+        factors = [p.load_factor for p in self.result.points]
+        return fixed([np.nan if f is None else f for f in factors])
 
     def certificate_at(self, point: int) -> Certificate:
-        """The evidence for a point of the curve."""
-        certificate = self._certificate(f"path/{range(len(self._result['points']))[point]}")
+        """The evidence for a point of the curve.
+
+        Parameters
+        ----------
+        point : int
+            Its place on the curve, from 0; -1 for the last.
+        """
+        certificate = self._certificate(f"path/{range(len(self.parameter))[point]}")
         assert certificate is not None
         return certificate
 
-    def to_pandas(self) -> pandas.DataFrame:
+    def to_frame(self) -> pandas.DataFrame:
         """The curve, one row a point, as ``--csv`` writes it."""
         import io
 
@@ -763,308 +823,273 @@ class Path(Answer):
 
         return pandas.read_csv(io.StringIO(self._core.csv("path")))
 
+    def plot(self, axes: Axes | None = None, *, view: str = "front") -> Axes:
+        """Draw the curve of ``push``: the load factor against the displacement; the structure of
+        ``settle``."""
+        if self.question == "settle":
+            return super().plot(axes, view=view)
+        from ._plot import curve
 
-class Kinematic(Answer):
-    """Under an earthquake: at what acceleration does it start to move, and what then?"""
+        return curve(axes, self.parameter, self.load_factor, "displacement, m", "load factor")
+
+
+class Kinematic(keys.KinematicKeys, Answer):
+    """The answer of :func:`kinematic`: the worst of all directions.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> table = voussoir.Scene("Table", friction=0.6, density=2400)
+    >>> table = table.box("ground", (2, 2, 0.2), at=(0, 0, -0.1), support=True)
+    >>> table = table.box("block", (0.4, 0.4, 1), at=(0, 0, 0.5))
+    >>> answer = voussoir.kinematic(table, toward=(1, 0), fc=1, linear=True)
+    >>> round(answer.a0, 3), answer.participation.masses[0].block
+    (3.924, 'block')
+    """
 
     question = "kinematic"
 
     @property
-    def _own(self) -> dict[str, Any]:
-        own: dict[str, Any] = self._answer["kinematic"]
-        return own
-
-    @property
-    def _numbers(self) -> dict[str, Any]:
-        numbers: dict[str, Any] = self._own["numbers"]
-        return numbers
-
-    @property
-    def toward(self) -> tuple[float, float, float]:
-        """The worst direction asked for."""
-        x, y, z = self._own["toward"]
-        return (x, y, z)
-
-    @property
-    def alpha0(self) -> LoadFactor:
-        """The share of all weights that, pushing that way, sets it moving."""
-        return LoadFactor._of(self._own["alpha0"])
-
-    @property
-    def confidence(self) -> float:
-        """The factor of confidence FC."""
-        return float(self._own["fc"])
-
-    @property
-    def a0(self) -> float | None:
-        """α0 g / (e* FC), m/s²; ``None`` where α0 was not found."""
-        return self._numbers.get("a0")
-
-    @property
-    def participation(self) -> dict[str, Any] | None:
-        """What of the mass takes part: ``e_star``, ``mass`` (M*, kg), δ of every mass."""
-        return self._numbers.get("participation")
-
-    @property
-    def capacity(self) -> dict[str, Any] | None:
-        """What the capacity curve gives where it vanishes: ``d0`` (m), limit states."""
-        return self._numbers.get("capacity")
-
-    @property
-    def demand(self) -> dict[str, Any] | None:
-        """What the site demands, where the scene has one: ``ratio`` and the checks."""
-        return self._numbers.get("demand")
-
-    @property
     def no_curve(self) -> str | None:
         """Why there is no capacity curve."""
-        return self._own.get("no_curve")
+        return self._part("why", keys.Why).no_curve  # type: ignore[union-attr]
 
-    def to_pandas(self) -> pandas.DataFrame:
+    def to_frame(self) -> pandas.DataFrame:
         """The masses that move, one row a mass."""
         import pandas
 
-        return pandas.DataFrame((self.participation or {}).get("masses", []))
+        taking_part = self.participation
+        return pandas.DataFrame(taking_part.to_dict()["masses"] if taking_part else [])
 
 
-class Stages(Answer):
-    """Does every stage of its construction stand, and how safely?"""
+class Stages(keys.StagesKeys, Answer):
+    """The answer of :func:`stages`.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> table = voussoir.Scene("Table", friction=0.6, density=2400)
+    >>> table = table.box("ground", (2, 2, 0.2), at=(0, 0, -0.1), support=True)
+    >>> table = table.box("block", (0.4, 0.4, 1), at=(0, 0, 0.5))
+    >>> table = table.add(voussoir.Stage(name="first", add=["block"]))
+    >>> answer = voussoir.stages(table)
+    >>> answer.verdict.value, answer.worst, round(answer.least_tilt_deg.value, 3)
+    ('stable', 'first', 21.801)
+    """
 
     question = "stages"
 
-    @property
-    def _own(self) -> dict[str, Any]:
-        own: dict[str, Any] = self._answer["stages"]
-        return own
-
-    @property
-    def worst(self) -> str:
-        """The worst stage."""
-        return str(self._own["worst"])
-
-    @property
-    def worst_verdict(self) -> Verdict:
-        """Its verdict."""
-        return Verdict(self._own["verdict"])
-
-    @property
-    def count(self) -> int:
-        """How many stages there are."""
-        return int(self._own["stages"])
-
-    @property
-    def stand_first(self) -> int:
-        """How many stand, from the first on."""
-        return int(self._own["stand_first"])
+    @cached_property
+    def result(self) -> keys.StagesResult:
+        """Every stage."""
+        return keys.StagesResult._of(self.to_dict()["answer"]["each_stage"])
 
     @property
     def order(self) -> list[str] | None:
         """Of an order: the blocks as they are placed; empty where none was found."""
-        order = self.to_dict()["answer"]["each_stage"].get("order")
-        return None if order is None else [p["block"] for p in order.get("placed", [])]
+        order = self.result.order
+        return None if order is None else [p.block for p in order.placed]
 
-    @property
-    def most_held(self) -> int | None:
-        """Of an order: the most blocks that are held at a time."""
-        return self._own.get("most_held")
-
-    @property
-    def least_held(self) -> int | None:
-        """Of an order: with fewer held at a time a search found none (computed, not proved)."""
-        return self._own.get("least_held")
-
-    def to_pandas(self) -> pandas.DataFrame:
+    def to_frame(self) -> pandas.DataFrame:
         """The stages, one row a stage: name, verdict, blocks, load factor, tilt in degrees."""
         import pandas
 
-        def margin(stage: dict[str, Any], key: str) -> float | None:
-            value: float | None = stage.get("margin", {}).get(key, {}).get("value")
+        def margin(stage: keys.StageResult, key: str) -> float | None:
+            value: float | None = (stage.margin or {}).get(key, {}).get("value")
             return value
 
         rows = [
             {
-                "name": stage["name"],
-                "verdict": stage["verdict"]["verdict"],
-                "blocks": stage["blocks"],
-                "held": stage.get("held", []),
+                "name": stage.name,
+                "verdict": stage.verdict["verdict"],
+                "blocks": stage.blocks,
+                "held": stage.held,
                 "load_factor": margin(stage, "load_factor"),
                 "tilt_deg": margin(stage, "tilt_deg"),
             }
-            for stage in self.to_dict()["answer"]["each_stage"]["list"]
+            for stage in self.result.list
         ]
         return pandas.DataFrame(rows)
 
 
-class Without(Answer):
-    """Which single blocks may be taken out with everything left standing?"""
+class Without(keys.WithoutKeys, Answer):
+    """The answer of :func:`without`.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> table = voussoir.Scene("Table", friction=0.6, density=2400)
+    >>> table = table.box("ground", (2, 2, 0.2), at=(0, 0, -0.1), support=True)
+    >>> table = table.box("block", (0.4, 0.4, 1), at=(0, 0, 0.5))
+    >>> answer = voussoir.without(table.box("upper", (0.4, 0.4, 1), at=(0, 0, 1.5)))
+    >>> answer.removable, [(w.block, w.verdict.value) for w in answer.each]
+    (['upper'], [('block', 'unstable'), ('upper', 'stable')])
+    """
 
     question = "without"
 
-    @property
-    def _own(self) -> dict[str, Any]:
-        own: dict[str, Any] = self._answer["without"]
-        return own
-
-    @property
-    def removable(self) -> list[str]:
-        """The blocks without which the others stand."""
-        return list(self._own["removable"])
-
-    def to_pandas(self) -> pandas.DataFrame:
+    def to_frame(self) -> pandas.DataFrame:
         """The blocks, one row a block: the verdict on what is left, and what moves then."""
         import pandas
 
-        rows = [
-            {"block": w["block"], "verdict": w["verdict"], "moving": w.get("moving", [])}
-            for w in self._own["each"]
-        ]
+        rows = [{"block": w.block, "verdict": w.verdict.value, "moving": w.moving} for w in self.each]
         return pandas.DataFrame(rows)
 
 
-class State(Answer):
-    """Which forces and displacements follow from the stiffness of the joints?"""
+class State(keys.StateKeys, Answer):
+    """The answer of :func:`state`.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> table = voussoir.Scene("Table", friction=0.6, density=2400)
+    >>> table = table.box("ground", (2, 2, 0.2), at=(0, 0, -0.1), support=True)
+    >>> table = table.box("block", (0.4, 0.4, 1), at=(0, 0, 0.5))
+    >>> answer = voussoir.state(table.joint(friction=0.6, normal_stiffness=1e9))
+    >>> round(answer.joint_states[0].normal_force, 2), len(answer.frequencies)
+    (3767.04, 6)
+    """
 
     question = "state"
 
     @property
-    def _own(self) -> dict[str, Any]:
-        own: dict[str, Any] = self._answer["state"]
-        return own
+    def _state(self) -> dict[str, Any]:
+        state: dict[str, Any] = self._answer["state"]
+        return state
 
-    @property
-    def verdict(self) -> Verdict:
-        """``stable`` where the forces of the state balance every block; else what ``assess`` says."""
-        return Verdict(self._own["verdict"])
+    def _vectors(self, key: str) -> dict[str, Array]:
+        return {d["block"]: fixed(d[key]) for d in self._state.get("displacements", [])}
 
-    @property
-    def proof(self) -> Any:
-        """How exactly it is proved that it stands; ``None`` where no state was found."""
-        return self._own.get("proof")
-
-    @property
+    @cached_property
     def displacements(self) -> dict[str, Array]:
         """Under the dead load, of the centre of mass of every free block, m; shape (3,) each."""
-        said = self._own.get("displacements", [])
-        return {d["block"]: np.array(d["displacement"], dtype=np.float64) for d in said}
+        return self._vectors("displacement")
 
-    @property
+    @cached_property
     def rotations(self) -> dict[str, Array]:
         """Under the dead load, the rotation vector of every free block, rad; shape (3,) each."""
-        said = self._own.get("displacements", [])
-        return {d["block"]: np.array(d["rotation"], dtype=np.float64) for d in said}
+        return self._vectors("rotation")
 
-    @property
+    @cached_property
     def frequencies(self) -> Array:
-        """Lowest frequencies of small motion about the state, Hz, ascending."""
-        return np.array(self._own.get("frequencies", []), dtype=np.float64)
+        """Lowest frequencies of small motion about the state, Hz, ascending; shape (n,)."""
+        return fixed(self._state.get("frequencies", []))
 
-    @property
-    def residuals(self) -> dict[str, float] | None:
-        """What is left of balance, of Signorini's and of Coulomb's conditions."""
-        return self._own.get("residuals")
-
-    @property
-    def load_factor(self) -> dict[str, Any] | None:
-        """Along a live load: ``value``, ``reached``, how the path ended, the bound."""
-        return self._own.get("load_factor")
-
-    @property
+    @cached_property
     def curve(self) -> tuple[Array, Array]:
         """Load factors, shape (n,), and displacements of the control point, m, shape (n, 3)."""
-        points = self._own.get("curve", [])
-        factors = np.array([p["load_factor"] for p in points], dtype=np.float64)
-        ways = [p["displacement"] for p in points]
-        return factors, np.array(ways, dtype=np.float64).reshape(-1, 3)
+        points = self._state.get("curve", [])
+        factors = fixed([p["load_factor"] for p in points])
+        return factors, fixed([p["displacement"] for p in points] or np.zeros((0, 3)))
 
-    @property
-    def events(self) -> list[dict[str, Any]]:
-        """What happens to joints on the way."""
-        events: list[dict[str, Any]] = self._own.get("events", [])
-        return events
-
-    def to_pandas(self) -> pandas.DataFrame:
-        """The joints under the dead load, a row each: blocks, forces in N, pressure in Pa, …"""
+    def to_frame(self) -> pandas.DataFrame:
+        """The joints under the dead load, a row each: blocks, forces in N, pressure in Pa, ..."""
         import pandas
 
-        rows = [{**j, "between": " | ".join(j["between"])} for j in self._own.get("joints", [])]
+        rows = [{**j, "between": " | ".join(j["between"])} for j in self._state.get("joints", [])]
         return pandas.DataFrame(rows)
 
+    def plot(self, axes: Axes | None = None, *, view: str = "front") -> Axes:
+        """Draw the curve: the load factor against the displacement of the control point; the
+        structure where there is no live load."""
+        factors, ways = self.curve
+        if len(factors) < 2:
+            return super().plot(axes, view=view)
+        from ._plot import curve
 
-class Simulation(Answer):
-    """What happens in time? A second opinion, not a proof."""
+        lengths = np.linalg.norm(ways, axis=1)
+        return curve(axes, lengths, factors, "displacement, m", "load factor")
+
+
+class Simulation(keys.SimulationKeys, Answer):
+    """The answer of :func:`simulate`: observed, not proved.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> table = voussoir.Scene("Table", friction=0.6, density=2400)
+    >>> table = table.box("ground", (2, 2, 0.2), at=(0, 0, -0.1), support=True)
+    >>> table = table.box("block", (0.4, 0.4, 1), at=(0, 0, 0.5))
+    >>> answer = voussoir.simulate(table, fast=True)
+    >>> times, poses = answer.film
+    >>> answer.fate, answer.verdict.value, poses.shape[1:]
+    ('stands', 'stable', (2, 7))
+    """
 
     question = "simulate"
 
-    @property
-    def fate(self) -> str:
-        """``stands``, ``falls``, ``undecided``: observed, not proved."""
-        return str(self._answer["fate"])
-
     @cached_property
-    def simulation(self) -> dict[str, Any]:
-        """All of what was seen: ``collapse`` (s), ``runs``, ``agreement``, ``first_motion``, …"""
-        seen: dict[str, Any] = self._core.part("simulation")
-        return seen
+    def simulation(self) -> keys.Simulated:
+        """All of what was observed."""
+        return keys.Simulated._of(self._core.part("simulation"))
 
     @property
     def collapse(self) -> float | None:
         """When the first block had fallen, s."""
-        return self.simulation.get("collapse")
+        return self.simulation.collapse
 
     @cached_property
     def film(self) -> tuple[Array, Array]:
         """Times, s, shape (frames,), and poses, shape (frames, blocks, 7): centre of mass (m), then
         the rotation from the start as a quaternion w, x, y, z."""
-        times, poses = self._core.film()
-        return times, poses.reshape(len(times), -1, 7)
+        return _film(self._core)
 
     @cached_property
     def frames(self) -> tuple[Array, Array]:
         """The same at the times of ``frames=``."""
         seen = self._core.part("frames")
-        times = np.array([f["time"] for f in seen], dtype=np.float64)
-        poses = np.array([f["blocks"] for f in seen], dtype=np.float64)
-        return times, poses.reshape(len(times), -1, 7)
+        poses = fixed([f["blocks"] for f in seen])
+        return fixed([f["time"] for f in seen]), poses.reshape(len(seen), -1, 7)
 
 
-class Shaken(Answer):
-    """What do all blocks do on ground that moves? One history, not a proof."""
+def _film(core: _core.Answer) -> tuple[Array, Array]:
+    times, poses = core.film()
+    return times, poses.reshape(len(times), -1, 7)
+
+
+class Shaken(keys.ShakenKeys, Answer):
+    """The answer of :func:`shake`: one time history, not a proof.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> table = voussoir.Scene("Table", friction=0.6, density=2400)
+    >>> table = table.box("ground", (2, 2, 0.2), at=(0, 0, -0.1), support=True)
+    >>> table = table.box("block", (0.4, 0.4, 1), at=(0, 0, 0.5))
+    >>> jump = {"jump": {"velocity": 0.05}}
+    >>> answer = voussoir.shake(table, pulse=jump, fast=True, seconds=0.5)
+    >>> answer.overturned is None, [m.block for m in answer.motions]
+    (True, ['block'])
+    """
 
     question = "shake"
 
-    @property
-    def _own(self) -> dict[str, Any]:
-        own: dict[str, Any] = self._answer["shaken"]
-        return own
-
-    @property
-    def fate(self) -> str:
-        """``rests``, ``moves``, ``overturns``: observed, not proved."""
-        return str(self._own["fate"])
-
-    @property
-    def overturned(self) -> tuple[str, float] | None:
-        """The first block that overturned or fell, and when, s."""
-        block = self._own.get("overturned")
-        return None if block is None else (str(block), float(self._own["overturned_at"]))
-
-    def to_pandas(self) -> pandas.DataFrame:
-        """The free blocks, a row each: thickness (m), greatest way and what is left over it, when
-        (s), greatest turn (degrees)."""
+    def to_frame(self) -> pandas.DataFrame:
+        """The free blocks, a row each: thickness (m), greatest displacement and what is left over
+        it, when (s), greatest rotation (degrees)."""
         import pandas
 
-        return pandas.DataFrame(self._own["blocks"])
+        return pandas.DataFrame([motion.to_dict() for motion in self.motions])
 
     @cached_property
     def film(self) -> tuple[Array, Array]:
         """Times, s, shape (frames,), and poses, shape (frames, blocks, 7): centre of mass (m), then
         the rotation from the start as a quaternion w, x, y, z."""
-        times, poses = self._core.film()
-        return times, poses.reshape(len(times), -1, 7)
+        return _film(self._core)
 
 
-class Packing(Answer):
-    """How steep may a packing of grains be?"""
+class Packing(keys.TiltKeys, Answer):
+    """The answer of :func:`repose`.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> grains = voussoir.Scene("Grains", friction=0.3, density=2500)
+    >>> grains = grains.add(voussoir.Lattice(packing="square", radius=1, layers=1, side=2))
+    >>> answer = voussoir.repose(grains, all=4)
+    >>> round(answer.tilt_deg.value, 4), len(answer.directions)
+    (35.2644, 4)
+    """
 
     question = "repose"
 
@@ -1077,15 +1102,7 @@ class Packing(Answer):
     @cached_property
     def packing(self) -> dict[str, Any]:
         """The same as plain values."""
-        import json
-
-        packing: dict[str, Any] = json.loads(self.to_json())
-        return packing
-
-    @property
-    def angle(self) -> LoadFactor:
-        """The angle of maximum stability in the least direction, degrees."""
-        return LoadFactor._of(self._answer["tilt_deg"])
+        return self.to_dict()
 
     @property
     def directions(self) -> list[dict[str, Any]]:
@@ -1094,8 +1111,54 @@ class Packing(Answer):
         return directions
 
 
+class Combinations(keys.CombinationsKeys, Answer):
+    """The answer of :func:`combinations`.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> table = voussoir.Scene("Table", friction=0.6, density=2400)
+    >>> table = table.box("ground", (2, 2, 0.2), at=(0, 0, -0.1), support=True)
+    >>> table = table.box("block", (0.4, 0.4, 1), at=(0, 0, 0.5))
+    >>> table = table.load("live", weight=(1, 0, 0))
+    >>> table = table.add(voussoir.Combination(name="ultimate", factors={"dead": 1, "live": 1.5}))
+    >>> answer = voussoir.combinations(table, "limit")
+    >>> answer.governing, round(answer.each[0].required.obtained, 4), answer.each[0].required.met
+    ('ultimate', 0.2667, False)
+    """
+
+    question = "combinations"
+
+    def to_frame(self) -> pandas.DataFrame:
+        """The combinations, one row each: name, source, what is required and obtained."""
+        import pandas
+
+        rows = [c.to_dict() for c in self.each]
+        return pandas.DataFrame([{k: v for k, v in r.items() if k != "answer"} for r in rows])
+
+
+class Meet(keys.MeetKeys, Answer):
+    """The answer of :func:`meet`.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> table = voussoir.Scene("Table", friction=0.6, density=2400)
+    >>> table = table.box("ground", (2, 2, 0.2), at=(0, 0, -0.1), support=True)
+    >>> table = table.box("block", (0.4, 0.4, 1), at=(0, 0, 0.5))
+    >>> tilt = {"tilt": {"toward": [[1, 0, 0]], "require": 15}}
+    >>> (change,) = voussoir.meet(table, tilt, "/joints/default/friction", (0.1, 0.6)).changes
+    >>> round(change.met_at, 4)
+    0.2679
+    """
+
+    question = "meet"
+
+
 _KINDS: dict[str, type[Answer]] = {
     "assess": Assessment,
+    "combinations": Combinations,
+    "meet": Meet,
     "limit": Limit,
     "moving": Moving,
     "tilt": Tilt,

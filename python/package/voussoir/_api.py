@@ -1,23 +1,19 @@
 """Everything that the package shows."""
 
-
+from . import _scene_keys, compas
+from ._answer_keys import Bound, Bracket, CriticalValue, Doubt, JointMotion, LoadFactor, Mechanism
 from ._answers import (
     Answer,
     Assessment,
     Blocks,
-    Bound,
-    Bracket,
     Certificate,
+    Combinations,
     Critical,
-    CriticalValue,
-    Doubt,
     Finding,
     Forces,
-    JointMotion,
     Kinematic,
     Limit,
-    LoadFactor,
-    Mechanism,
+    Meet,
     Moving,
     Packing,
     Path,
@@ -28,16 +24,17 @@ from ._answers import (
     State,
     Thrust,
     Tilt,
-    Verdict,
     Verification,
     Without,
 )
 from ._ask import (
     assess,
+    combinations,
     critical,
     kinematic,
     limit,
     load_answer,
+    meet,
     moving,
     push,
     repose,
@@ -54,7 +51,9 @@ from ._core import __version__
 from ._errors import InputError, SceneWarning, TimeIsUp, VoussoirError
 from ._many import Heaps, Inspection, Many, Sweep, assess_many, check, heaps, sweep
 from ._piles import Piled, Piles
-from ._scene import Scene, load, load_foreign
+from ._record import Verdict
+from ._scene import Scene, import_file, load
+from ._scene_keys import *
 
 __all__ = [
     "Answer",
@@ -63,6 +62,7 @@ __all__ = [
     "Bound",
     "Bracket",
     "Certificate",
+    "Combinations",
     "Critical",
     "CriticalValue",
     "Doubt",
@@ -77,6 +77,7 @@ __all__ = [
     "LoadFactor",
     "Many",
     "Mechanism",
+    "Meet",
     "Moving",
     "Packing",
     "Path",
@@ -101,13 +102,16 @@ __all__ = [
     "assess",
     "assess_many",
     "check",
+    "combinations",
+    "compas",
     "critical",
     "heaps",
+    "import_file",
     "kinematic",
     "limit",
     "load",
     "load_answer",
-    "load_foreign",
+    "meet",
     "moving",
     "push",
     "repose",
@@ -121,3 +125,4 @@ __all__ = [
     "tilt",
     "without",
 ]
+__all__ += _scene_keys.__all__

@@ -1,4 +1,4 @@
-"""The verbs: every question goes through the library's one door, as the command's do."""
+"""The questions, asked as the command asks them."""
 
 from __future__ import annotations
 
@@ -13,9 +13,11 @@ from numpy.typing import ArrayLike
 from . import _core
 from ._answers import (
     Assessment,
+    Combinations,
     Critical,
     Kinematic,
     Limit,
+    Meet,
     Moving,
     Packing,
     Path,
@@ -30,7 +32,8 @@ from ._answers import (
 )
 from ._errors import SceneWarning
 from ._progress import shown
-from ._scene import SceneLike, Vector, _three, core
+from ._plain import Vector
+from ._scene import SceneLike, _three, core
 
 Law: TypeAlias = Literal["coulomb", "associative"]
 """How joints slide: ``coulomb`` is dry friction; ``associative`` asks for the bound alone."""
@@ -79,18 +82,53 @@ def assess(
 
     Parameters
     ----------
-    law : "coulomb" or "associative"
-        Whether the loads must produce the forces that hold it, or such forces need only exist.
-    worst : mapping of names to ranges, optional
-        Ask about the worst case: ``{"friction": (0.5, 0.7), "density": (2000, 2400)}``.
+    scene : Scene, path or mapping
+        The scene, the path of its file, or what stands in one.
+    law : {"coulomb", "associative"}
+        How joints slide: dry friction, or opening by friction times slip; the second finds the
+        bound alone, and is faster.
+    worst : mapping of names to (least, greatest), optional
+        The worst case within ranges: ``{"friction": (0.5, 0.7), "density": (2000, 2400)}``. Names:
+        ``friction``, ``density``, ``density:MATERIAL``, ``load``, or a JSON pointer.
     simulate : bool or "in doubt"
-        Run it in time as well, always or where the verdict is conditional or undecided.
-    keep_all : bool
-        Leave nothing out that symmetry or missing friction make needless.
-    time_limit : float, optional
-        Stop trying after so many seconds, with the best bracket so far.
+        Simulate it in time as well: always, or where the verdict is conditional or undecided.
     threads : int
-        Of the simulation; 0 for as many as there are processors.
+        Threads of the simulation; 0 for one a processor. More than four a processor are not
+        started. The answer does not depend on them.
+    keep_all : bool
+        Do without reductions, such as those by symmetry; nothing is neglected by them.
+    time_limit : float, optional
+        Seconds after which the best answer so far is given, more than 0.
+    progress : callable or bool
+        Called with the work done, the total and a text; ``True`` for a bar of tqdm.
+
+    Returns
+    -------
+    Assessment
+        ``verdict``, ``equilibrium_error``, ``forces``, ``mechanism``, ``certificate``, ...
+
+    Raises
+    ------
+    InputError
+        The scene or an option cannot be used as it is.
+    VoussoirError
+        There is no answer; :class:`TimeIsUp` where there was no time for one.
+
+    References
+    ----------
+    R. K. Livesley, Int. J. Num. Meth. Eng. 12 (1978); J. Heyman, Int. J. Solids Struct. 2
+    (1966); ``docs/guide/law.md``.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> arch = voussoir.Scene("Arch", friction=0.7, density=2400)
+    >>> arch = arch.add(voussoir.Arch(radius=1, thickness=0.15, depth=1, voussoirs=9))
+    >>> answer = voussoir.assess(arch)
+    >>> print(answer.title)
+    Arch: stands
+    >>> answer.forces[:, 2].shape
+    (40,)
     """
     beside = simulate if isinstance(simulate, str) else "always" if simulate else "never"
     answer = _ask(
@@ -112,6 +150,7 @@ def limit(
     *,
     law: Law = "coulomb",
     worst: Worst | None = None,
+    require: float | None = None,
     skip_dead: bool = False,
     sensitivity: bool = False,
     keep_all: bool = False,
@@ -120,11 +159,59 @@ def limit(
 ) -> Limit:
     """How large may the live load grow?
 
-    ``skip_dead`` leaves out whether it stands without its live load; ``sensitivity`` tells how the
-    load factor changes with every number that was assumed; other parameters are those of
-    :func:`assess`.
+    Parameters
+    ----------
+    scene : Scene, path or mapping
+        The scene, the path of its file, or what stands in one.
+    law : {"coulomb", "associative"}
+        How joints slide: dry friction, or opening by friction times slip; the second finds the
+        bound alone, and is faster.
+    worst : mapping of names to (least, greatest), optional
+        The worst case within ranges: ``{"friction": (0.5, 0.7), "density": (2000, 2400)}``. Names:
+        ``friction``, ``density``, ``density:MATERIAL``, ``load``, or a JSON pointer.
+    require : float, optional
+        A load factor below this is not enough: ``answer.required`` says whether it is met. That of the
+        scene where none is given.
+    skip_dead : bool
+        Do not ask whether it stands without its live load.
+    sensitivity : bool
+        Tell how the load factor changes with every number that was assumed.
+    keep_all : bool
+        Do without reductions, such as those by symmetry; nothing is neglected by them.
+    time_limit : float, optional
+        Seconds after which the best answer so far is given, more than 0.
+    progress : callable or bool
+        Called with the work done, the total and a text; ``True`` for a bar of tqdm.
+
+    Returns
+    -------
+    Limit
+        ``load_factor`` with ``value``, ``lower``, ``upper`` and the bound ``associative``.
+
+    Raises
+    ------
+    InputError
+        The scene or an option cannot be used as it is; it has no live load.
+    VoussoirError
+        There is no answer; :class:`TimeIsUp` where there was no time for one.
+
+    References
+    ----------
+    D. C. Drucker, J. Appl. Mech. 21 (1954); R. K. Livesley, Int. J. Num. Meth. Eng. 12 (1978);
+    with dry friction M. C. Ferris, F. Tin-Loi, Int. J. Mech. Sci. 43 (2001), M. Gilbert, C.
+    Casapulla, H. M. Ahmed, Comput. Struct. 84 (2006); ``docs/guide/law.md``.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> table = voussoir.Scene("Table", friction=0.6, density=2400)
+    >>> table = table.box("ground", (2, 2, 0.2), at=(0, 0, -0.1), support=True)
+    >>> table = table.box("block", (0.4, 0.4, 1), at=(0, 0, 0.5))
+    >>> answer = voussoir.limit(table.load("live", weight=(1, 0, 0)))
+    >>> round(answer.load_factor.value, 6)
+    0.4
     """
-    options: dict[str, Any] = {"law": law, "skip_dead": skip_dead, "sensitivity": sensitivity}
+    options: dict[str, Any] = {"law": law, "skip_dead": skip_dead, "sensitivity": sensitivity, **_given(require=require)}
     answer = _ask(
         scene,
         {"limit": options},
@@ -140,6 +227,7 @@ def moving(
     scene: SceneLike,
     *,
     law: Law = "coulomb",
+    require: float | None = None,
     skip_dead: bool = False,
     every_value: bool = False,
     keep_all: bool = False,
@@ -148,11 +236,59 @@ def moving(
 ) -> Moving:
     """How heavy may the train of the scene be that drives over it?
 
-    Every position of it is asked, in both directions of travel, and more around the least, which
-    is the answer. With dry friction all but the worst are asked only whether they bear the same,
-    unless ``every_value`` is set. Other parameters are those of :func:`limit`.
+    All positions are asked, in both directions of travel, and more around the least.
+
+    Parameters
+    ----------
+    scene : Scene, path or mapping
+        The scene, the path of its file, or what stands in one.
+    law : {"coulomb", "associative"}
+        How joints slide: dry friction, or opening by friction times slip; the second finds the
+        bound alone, and is faster.
+    require : float, optional
+        A load factor below this is not enough: ``answer.required`` says whether it is met. That of the
+        scene where none is given.
+    skip_dead : bool
+        Do not ask whether it stands without the train.
+    every_value : bool
+        Compute every position; by default the others are only shown to be no lower.
+    keep_all : bool
+        Do without reductions, such as those by symmetry; nothing is neglected by them.
+    time_limit : float, optional
+        Seconds after which the best answer so far is given, more than 0.
+    progress : callable or bool
+        Called with the work done, the total and a text; ``True`` for a bar of tqdm.
+
+    Returns
+    -------
+    Moving
+        ``load_factor`` of the worst position, its ``x`` and ``travel``.
+
+    Raises
+    ------
+    InputError
+        The scene or an option cannot be used as it is; it has no train.
+    VoussoirError
+        There is no answer; :class:`TimeIsUp` where there was no time for one.
+
+    References
+    ----------
+    ``docs/bridges.md``.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> span = voussoir.BridgeSpan(clear_span=6, rise=1.5, thickness=0.3, voussoirs=20)
+    >>> fill = voussoir.Fill(cover=0.3, unit_weight=18_000)
+    >>> bridge = voussoir.Scene("Bridge", friction=0.6, density=2000)
+    >>> bridge = bridge.add(voussoir.Bridge(spans=[span], width=3, fill=fill))
+    >>> axle = voussoir.Axle(at=0, force=1000)
+    >>> bridge = bridge.add(voussoir.Train(axles=[axle], path=(-3, 3), step=1))
+    >>> round(voussoir.moving(bridge, law="associative").load_factor.value, 1)
+    203.1
     """
     options: dict[str, Any] = {"law": law, "skip_dead": skip_dead, "every_value": every_value}
+    options |= _given(require=require)
     return Moving(
         _ask(
             scene,
@@ -162,6 +298,11 @@ def moving(
             progress=progress,
         )
     )
+
+
+def _given(**options: Any) -> dict[str, Any]:
+    """Those options that are given."""
+    return {key: value for key, value in options.items() if value is not None}
 
 
 def _directions(toward: Sequence[Vector] | Vector | None, all: int | None) -> dict[str, Any]:
@@ -179,6 +320,7 @@ def tilt(
     toward: Sequence[Vector] | Vector | None = None,
     all: int | None = None,
     law: Law = "coulomb",
+    require: float | None = None,
     skip_dead: bool = False,
     sensitivity: bool = False,
     keep_all: bool = False,
@@ -189,19 +331,56 @@ def tilt(
 
     Parameters
     ----------
-    toward : one direction or several, optional
-        ``(x, y)`` or ``(x, y, z)``.
+    scene : Scene, path or mapping
+        The scene, the path of its file, or what stands in one.
+    toward : (x, y), (x, y, z), or several of them, optional
+        Directions in which the ground tilts.
     all : int, optional
-        So many directions evenly spread, the first along x; 8 where nothing is said.
+        This many directions instead, evenly spread, the first along x. Default 8.
+    law : {"coulomb", "associative"}
+        How joints slide: dry friction, or opening by friction times slip; the second finds the
+        bound alone, and is faster.
+    require : float, optional
+        A tilt, degrees, below this is not enough: ``answer.required`` says whether it is met. That of the
+        scene where none is given.
+    skip_dead : bool
+        Do not ask whether it stands when level.
     sensitivity : bool
-        How the least tilt changes with every number that was assumed.
+        Tell how the least tilt changes with every number that was assumed.
+    keep_all : bool
+        Do without reductions, such as those by symmetry; nothing is neglected by them.
+    time_limit : float, optional
+        Seconds after which the best answer so far is given, more than 0.
+    progress : callable or bool
+        Called with the work done, the total and a text; ``True`` for a bar of tqdm.
+
+    Returns
+    -------
+    Tilt
+        ``tilt_deg``, ``tan_tilt``, ``toward``; all in ``directions``.
+
+    Raises
+    ------
+    InputError
+        The scene or an option cannot be used as it is.
+    VoussoirError
+        There is no answer; :class:`TimeIsUp` where there was no time for one.
+
+    References
+    ----------
+    As of :func:`limit`: a tilt is a live load across gravity; ``docs/guide/law.md``.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> table = voussoir.Scene("Table", friction=0.6, density=2400)
+    >>> table = table.box("ground", (2, 2, 0.2), at=(0, 0, -0.1), support=True)
+    >>> table = table.box("block", (0.4, 0.4, 1), at=(0, 0, 0.5))
+    >>> round(voussoir.tilt(table, toward=(1, 0)).tilt_deg.value, 3)
+    21.801
     """
-    options = {
-        "law": law,
-        "skip_dead": skip_dead,
-        "sensitivity": sensitivity,
-        **_directions(toward, all),
-    }
+    options = {"law": law, "skip_dead": skip_dead, "sensitivity": sensitivity, **_directions(toward, all)}
+    options |= _given(require=require)
     answer = _ask(
         scene, {"tilt": options}, keep_all=keep_all, time_limit=time_limit, progress=progress
     )
@@ -219,16 +398,53 @@ def critical(
     time_limit: float | None = None,
     progress: Progress = False,
 ) -> Critical:
-    """At what value of a number in the scene does the verdict flip?
+    """At what value of a number in the scene does the verdict change?
 
     Parameters
     ----------
+    scene : Scene, path or mapping
+        The scene, the path of its file, or what stands in one.
     vary : str
         JSON pointer of the number: ``/templates/0/arch/thickness``.
-    between : two numbers
-        The range.
+    between : (float, float)
+        The range, in the number's own unit.
     scan : int, optional
-        Values that are scanned, both ends among them; 33 where nothing is said.
+        Values that are scanned, both ends among them. Default 33.
+    law : {"coulomb", "associative"}
+        How joints slide: dry friction, or opening by friction times slip; the second finds the
+        bound alone, and is faster.
+    keep_all : bool
+        Do without reductions, such as those by symmetry; nothing is neglected by them.
+    time_limit : float, optional
+        Seconds after which the best answer so far is given, more than 0.
+    progress : callable or bool
+        Called with the work done, the total and a text; ``True`` for a bar of tqdm.
+
+    Returns
+    -------
+    Critical
+        ``values``, each with the nearest proved values ``lower`` and ``upper``.
+
+    Raises
+    ------
+    InputError
+        The scene or an option cannot be used as it is.
+    VoussoirError
+        There is no answer; :class:`TimeIsUp` where there was no time for one.
+
+    References
+    ----------
+    ``docs/guide/questions.md``.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> arch = voussoir.Scene("Arch", friction=0.7, density=2400)
+    >>> arch = arch.add(voussoir.Arch(radius=1, thickness=0.15, depth=1, voussoirs=9))
+    >>> thickness = "/templates/0/arch/thickness"
+    >>> answer = voussoir.critical(arch, thickness, (0.05, 0.2), scan=4, law="associative")
+    >>> round(answer.value, 4)
+    0.1015
     """
     options: dict[str, Any] = {"law": law, "vary": vary, "between": list(between)}
     if scan is not None:
@@ -250,16 +466,52 @@ def thrust(
     time_limit: float | None = None,
     progress: Progress = False,
 ) -> Thrust:
-    """How hard does it push a support, at least and at most?
+    """What are the least and the greatest thrust on a support?
 
     Parameters
     ----------
+    scene : Scene, path or mapping
+        The scene, the path of its file, or what stands in one.
     support : str, optional
-        The first one that carries a free block where none is named.
+        Id of the support; the first that carries a free block where none is named.
     direction : (x, y) or (x, y, z), optional
         Outwards from the blocks' centre of mass where none is given.
     member : str, optional
-        The force in this member of the scene in place of a thrust.
+        Id of a member: the force in it in place of a thrust.
+    law : {"coulomb", "associative"}
+        How joints slide: dry friction, or opening by friction times slip; the second finds the
+        bound alone, and is faster.
+    keep_all : bool
+        Do without reductions, such as those by symmetry; nothing is neglected by them.
+    time_limit : float, optional
+        Seconds after which the best answer so far is given, more than 0.
+    progress : callable or bool
+        Called with the work done, the total and a text; ``True`` for a bar of tqdm.
+
+    Returns
+    -------
+    Thrust
+        ``least`` and ``greatest``, N; ``geometric_factor``; ``line_of_thrust``.
+
+    Raises
+    ------
+    InputError
+        The scene or an option cannot be used as it is.
+    VoussoirError
+        There is no answer; :class:`TimeIsUp` where there was no time for one.
+
+    References
+    ----------
+    J. Heyman, Int. J. Solids Struct. 2 (1966); ``docs/guide/questions.md``.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> arch = voussoir.Scene("Arch", friction=0.7, density=2400)
+    >>> arch = arch.add(voussoir.Arch(radius=1, thickness=0.15, depth=1, voussoirs=9))
+    >>> answer = voussoir.thrust(arch)
+    >>> round(answer.least.value), round(answer.greatest.value)
+    (1839, 2519)
     """
     options: dict[str, Any] = {"law": law, "range": True}
     if support is not None:
@@ -286,23 +538,55 @@ def settle(
     time_limit: float | None = None,
     progress: Progress = False,
 ) -> Path:
-    """How far may supports move until it falls?
+    """How far may supports move before it falls?
 
     Parameters
     ----------
-    moves : ids of supports to three numbers, optional
-        The way of each while the parameter goes from 0 to 1, m; ``*`` stands for any letters of a
-        name: ``{"pier_*": (0, 0, -0.1)}``.
-    out : ids of supports to numbers, optional
-        The way outwards of each of several supports, m: horizontally away from the mean of the
-        centres of mass of all that the name fits: ``{"springer_*": 0.05}``.
-    turns_deg : ids of supports to three numbers, optional
-        Axis × angle in degrees, about the centre of mass.
-    at : numbers from 0 to 1
-        Values of the parameter that become points of the curve.
+    scene : Scene, path or mapping
+        The scene, the path of its file, or what stands in one.
+    moves : mapping of ids to (x, y, z), optional
+        Displacement of each support while the parameter goes from 0 to 1, m; ``*`` stands for any
+        letters of an id: ``{"pier_*": (0, 0, -0.1)}``.
+    out : mapping of ids to float, optional
+        Displacement outwards of each of several supports, m: horizontally away from the mean of
+        the centres of mass of all that the name fits: ``{"springer_*": 0.05}``.
+    turns_deg : mapping of ids to (x, y, z), optional
+        Rotation of each support: axis × angle in degrees, about its centre of mass.
+    at : sequence of float
+        Values of the parameter, 0 to 1, that become points of the curve.
     keep : path, optional
-        Every point is in this file as soon as it is proved; the same call takes it up again after a
-        kill at any point.
+        A checkpoint: every point is written as soon as it is proved; the same call resumes.
+    keep_all : bool
+        Do without reductions, such as those by symmetry; nothing is neglected by them.
+    time_limit : float, optional
+        Seconds after which the best answer so far is given, more than 0.
+    progress : callable or bool
+        Called with the work done, the total and a text; ``True`` for a bar of tqdm.
+
+    Returns
+    -------
+    Path
+        ``status``, ``value``, ``falls_at``, ``least_reaction``, ``parameter``, ``events``.
+
+    Raises
+    ------
+    InputError
+        The scene or an option cannot be used as it is.
+    VoussoirError
+        There is no answer; :class:`TimeIsUp` where there was no time for one.
+
+    References
+    ----------
+    ``docs/path.md``.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> arch = voussoir.Scene("Arch", friction=0.7, density=2400)
+    >>> arch = arch.add(voussoir.Arch(radius=1, thickness=0.15, depth=1, voussoirs=9))
+    >>> answer = voussoir.settle(arch, out={"springer_*": 0.1})
+    >>> answer.status, round(answer.falls_at, 4), float(answer.parameter[0])
+    ('falls', 0.6083, 0.0)
     """
     ways, outwards, turns = dict(moves or {}), dict(out or {}), dict(turns_deg or {})
     listed = []
@@ -337,18 +621,53 @@ def push(
     time_limit: float | None = None,
     progress: Progress = False,
 ) -> Path:
-    """How does the load factor fall as it moves?
+    """How does the load factor fall as the structure displaces?
 
     Parameters
     ----------
-    control : (id of a block, three numbers)
-        The point whose way is the parameter, m.
-    toward : three numbers
-        The direction in which its way is measured.
-    at : numbers
-        Ways that become points of the curve, m.
+    scene : Scene, path or mapping
+        The scene, the path of its file, or what stands in one.
+    control : (id of a block, (x, y, z))
+        The point of that block, m, whose displacement is the parameter.
+    toward : (x, y, z)
+        Direction in which its displacement is measured.
+    at : sequence of float
+        Displacements that become points of the curve, m.
     keep : path, optional
-        As of :func:`settle`.
+        A checkpoint: every point is written as soon as it is proved; the same call resumes.
+    keep_all : bool
+        Do without reductions, such as those by symmetry; nothing is neglected by them.
+    time_limit : float, optional
+        Seconds after which the best answer so far is given, more than 0.
+    progress : callable or bool
+        Called with the work done, the total and a text; ``True`` for a bar of tqdm.
+
+    Returns
+    -------
+    Path
+        ``parameter`` (m) and ``load_factor``, arrays; ``status``, ``value``, ``events``.
+
+    Raises
+    ------
+    InputError
+        The scene or an option cannot be used as it is.
+    VoussoirError
+        There is no answer; :class:`TimeIsUp` where there was no time for one.
+
+    References
+    ----------
+    ``docs/path.md``.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> table = voussoir.Scene("Table", friction=0.6, density=2400)
+    >>> table = table.box("ground", (2, 2, 0.2), at=(0, 0, -0.1), support=True)
+    >>> table = table.box("block", (0.4, 0.4, 1), at=(0, 0, 0.5))
+    >>> table = table.load("live", weight=(1, 0, 0))
+    >>> answer = voussoir.push(table, ("block", (0, 0, 1)), (1, 0, 0))
+    >>> answer.status, answer.load_factor[[0, -1]].round(3).tolist()
+    ('vanishes', [0.4, -0.0])
     """
     block, point = control
     options = {
@@ -377,6 +696,9 @@ def kinematic(
     fc: float | None = None,
     at: Sequence[float] = (),
     linear: bool = False,
+    require: float | None = None,
+    site: float | None = None,
+    verify: Literal["linear", "displacement"] | None = None,
     law: Law = "coulomb",
     skip_dead: bool = False,
     sensitivity: bool = False,
@@ -384,32 +706,78 @@ def kinematic(
     time_limit: float | None = None,
     progress: Progress = False,
 ) -> Kinematic:
-    """Under an earthquake: at what acceleration does it start to move, and what then?
+    """At what earthquake acceleration does a mechanism start, and what follows?
 
     Parameters
     ----------
-    toward : two or three numbers, or several of them, optional
-        Directions of the earthquake.
+    scene : Scene, path or mapping
+        The scene, the path of its file, or what stands in one.
+    toward : (x, y), (x, y, z), or several of them, optional
+        Directions in which the earthquake pushes.
     all : int, optional
-        This many directions instead, evenly spread; 8 where nothing is said.
-    control : (id of a block, three numbers), optional
-        The point whose way measures the motion.
+        This many directions instead, evenly spread, the first along x. Default 8.
+    control : (id of a block, (x, y, z)), optional
+        The point of that block, m, whose displacement measures the motion.
     fc : float, optional
-        Factor of confidence; 1.35 where nothing is said.
-    at : numbers
-        Ways of the control point that become points of the curve, m.
+        Factor of confidence. Default 1.35.
+    at : sequence of float
+        Displacements of the control point that become points of the curve, m.
     linear : bool
         The linear analysis alone, without a curve.
+    require : float, optional
+        A load factor α0 below this is not enough: ``answer.required`` says whether it is met. That of the
+        scene where none is given.
+    site : float, optional
+        The same for the share ζ_E of the earthquake of the site. Default 1.
+    verify : {"linear", "displacement"}, optional
+        The verification that governs at the site; both where none is given.
+    law : {"coulomb", "associative"}
+        How joints slide: dry friction, or opening by friction times slip; the second finds the
+        bound alone, and is faster.
+    skip_dead : bool
+        Do not ask whether it stands without the earthquake.
     sensitivity : bool
-        How the worst α0 changes with every number that was assumed.
+        Tell how the load factor of the worst direction changes with every number that was assumed.
+    keep_all : bool
+        Do without reductions, such as those by symmetry; nothing is neglected by them.
+    time_limit : float, optional
+        Seconds after which the best answer so far is given, more than 0.
+    progress : callable or bool
+        Called with the work done, the total and a text; ``True`` for a bar of tqdm.
+
+    Returns
+    -------
+    Kinematic
+        ``alpha0``, ``a0`` (m/s²), ``participation``, ``capacity``, ``demand``.
+
+    Raises
+    ------
+    InputError
+        The scene or an option cannot be used as it is.
+    VoussoirError
+        There is no answer; :class:`TimeIsUp` where there was no time for one.
+
+    References
+    ----------
+    NTC 2018; Circolare 21 January 2019 n. 7, C8.7.1.2.1; ``docs/kinematic.md``.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> table = voussoir.Scene("Table", friction=0.6, density=2400)
+    >>> table = table.box("ground", (2, 2, 0.2), at=(0, 0, -0.1), support=True)
+    >>> table = table.box("block", (0.4, 0.4, 1), at=(0, 0, 0.5))
+    >>> answer = voussoir.kinematic(table, toward=(1, 0), fc=1, linear=True)
+    >>> round(answer.alpha0.value, 6), round(answer.a0, 3)
+    (0.4, 3.924)
     """
     options: dict[str, Any] = {
         "law": law,
         **_directions(toward, all),
         "at": [float(v) for v in at],
         "linear": linear,
-        "skip_dead": skip_dead,
-        "sensitivity": sensitivity,
+        "skip_dead": skip_dead, "sensitivity": sensitivity,
+        **_given(require=require, site=site, verify=verify),
     }
     if control is not None:
         options["control"] = {"block": control[0], "point": _three(control[1])}
@@ -437,27 +805,64 @@ def stages(
     time_limit: float | None = None,
     progress: Progress = False,
 ) -> Stages:
-    """Does every stage of its construction stand, and how safely?
+    """Does every stage of construction stand, and with what margin?
 
     Parameters
     ----------
+    scene : Scene, path or mapping
+        The scene, the path of its file, or what stands in one.
     any_order : bool
         In place of the stages of the scene: an order in which its free blocks can be placed one by
-        one, so that it stands all the time with as few of them held as can be.
+        one, so that it stands all the time with as few of them held as possible.
     order : sequence of str
-        The same for a given order: every free block once, ``*`` for any letters of a name.
+        The same for a given order: every free block once, ``*`` for any letters of an id.
     hands : int, optional
-        So many blocks can be held at a time; any number where nothing is said.
+        So many blocks can be held at a time; any number where none is given.
     tries : int, optional
-        Sets of blocks that the search looks at, at most; 5000 where nothing is said.
-    toward : two or three numbers, or several of them, optional
+        Sets of blocks that the search looks at, at most. Default 5000.
+    toward : (x, y), (x, y, z), or several of them, optional
         Directions of tilts, where a stage has no live load.
     all : int, optional
-        This many directions instead, evenly spread; 8 where nothing is said.
+        This many directions instead, evenly spread, the first along x. Default 8.
     skip_margin : bool
         No load factors and no tilts.
     skip_held : bool
         No least forces on what stages hold.
+    law : {"coulomb", "associative"}
+        How joints slide: dry friction, or opening by friction times slip; the second finds the
+        bound alone, and is faster.
+    keep_all : bool
+        Do without reductions, such as those by symmetry; nothing is neglected by them.
+    time_limit : float, optional
+        Seconds after which the best answer so far is given, more than 0.
+    progress : callable or bool
+        Called with the work done, the total and a text; ``True`` for a bar of tqdm.
+
+    Returns
+    -------
+    Stages
+        ``verdict`` and name (``worst``) of the worst stage; all in ``result.list``.
+
+    Raises
+    ------
+    InputError
+        The scene or an option cannot be used as it is.
+    VoussoirError
+        There is no answer; :class:`TimeIsUp` where there was no time for one.
+
+    References
+    ----------
+    ``docs/stages.md``.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> table = voussoir.Scene("Table", friction=0.6, density=2400)
+    >>> table = table.box("ground", (2, 2, 0.2), at=(0, 0, -0.1), support=True)
+    >>> table = table.box("block", (0.4, 0.4, 1), at=(0, 0, 0.5))
+    >>> answer = voussoir.stages(table.box("upper", (0.4, 0.4, 1), at=(0, 0, 1.5)), any_order=True)
+    >>> answer.order, answer.most_held
+    (['block', 'upper'], 0)
     """
     options: dict[str, Any] = {
         "law": law,
@@ -488,7 +893,47 @@ def without(
     time_limit: float | None = None,
     progress: Progress = False,
 ) -> Without:
-    """Which single blocks may be taken out with everything left standing?"""
+    """Which single blocks may be removed without a collapse?
+
+    Parameters
+    ----------
+    scene : Scene, path or mapping
+        The scene, the path of its file, or what stands in one.
+    law : {"coulomb", "associative"}
+        How joints slide: dry friction, or opening by friction times slip; the second finds the
+        bound alone, and is faster.
+    keep_all : bool
+        Do without reductions, such as those by symmetry; nothing is neglected by them.
+    time_limit : float, optional
+        Seconds after which the best answer so far is given, more than 0.
+    progress : callable or bool
+        Called with the work done, the total and a text; ``True`` for a bar of tqdm.
+
+    Returns
+    -------
+    Without
+        ``removable`` ids; ``each`` with the verdict on the others.
+
+    Raises
+    ------
+    InputError
+        The scene or an option cannot be used as it is.
+    VoussoirError
+        There is no answer; :class:`TimeIsUp` where there was no time for one.
+
+    References
+    ----------
+    ``docs/stages.md``.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> table = voussoir.Scene("Table", friction=0.6, density=2400)
+    >>> table = table.box("ground", (2, 2, 0.2), at=(0, 0, -0.1), support=True)
+    >>> table = table.box("block", (0.4, 0.4, 1), at=(0, 0, 0.5))
+    >>> voussoir.without(table.box("upper", (0.4, 0.4, 1), at=(0, 0, 1.5))).removable
+    ['upper']
+    """
     return Without(
         _ask(
             scene,
@@ -512,13 +957,15 @@ def state(
     time_limit: float | None = None,
     progress: Progress = False,
 ) -> State:
-    """Which forces and displacements follow from the stiffness of the joints?
+    """What forces and displacements follow from the stiffness of the joints?
 
     Parameters
     ----------
-    control : (id of a block, three numbers), optional
-        The point whose way along the live load is the curve.
-    at : numbers
+    scene : Scene, path or mapping
+        The scene, the path of its file, or what stands in one.
+    control : (id of a block, (x, y, z)), optional
+        The point of that block, m, whose displacement along the live load is the curve.
+    at : sequence of float
         Load factors that become points of the curve.
     quadrature : {"area", "corners"}
         Where joints with an area are integrated.
@@ -526,6 +973,38 @@ def state(
         The state under the dead load alone.
     require : float, optional
         A load factor below this counts as failure.
+    keep_all : bool
+        Do without reductions, such as those by symmetry; nothing is neglected by them.
+    time_limit : float, optional
+        Seconds after which the best answer so far is given, more than 0.
+    progress : callable or bool
+        Called with the work done, the total and a text; ``True`` for a bar of tqdm.
+
+    Returns
+    -------
+    State
+        ``displacements`` (m), ``rotations`` (rad), ``joint_states``, ``frequencies`` (Hz), ``curve``.
+
+    Raises
+    ------
+    InputError
+        The scene or an option cannot be used as it is; joints have no stiffness.
+    VoussoirError
+        There is no answer; :class:`TimeIsUp` where there was no time for one.
+
+    References
+    ----------
+    A. Signorini, Sopra alcune questioni di elastostatica (1933); ``docs/state.md``.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> table = voussoir.Scene("Table", friction=0.6, density=2400)
+    >>> table = table.box("ground", (2, 2, 0.2), at=(0, 0, -0.1), support=True)
+    >>> table = table.box("block", (0.4, 0.4, 1), at=(0, 0, 0.5))
+    >>> answer = voussoir.state(table.joint(friction=0.6, normal_stiffness=1e9))
+    >>> round(float(answer.displacements["block"][2]), 9)
+    -2.3544e-05
     """
     options: dict[str, Any] = {
         "quadrature": quadrature,
@@ -564,10 +1043,12 @@ def simulate(
     threads: int = 1,
     progress: Progress = False,
 ) -> Simulation:
-    """What happens in time, and does the verdict say the same?
+    """What happens in time, and does it agree with the verdict?
 
     Parameters
     ----------
+    scene : Scene, path or mapping
+        The scene, the path of its file, or what stands in one.
     fast, fine : bool
         Fast steps only, or fine ones from the start.
     seconds : float, optional
@@ -575,13 +1056,51 @@ def simulate(
     to_the_end : bool
         Until then although the outcome is clear.
     load_factor : float
-        So many times the live loads are added.
+        This factor × the live loads is added.
     frames : int
-        So many frames, evenly spread over the time allowed, are kept in the result.
+        This many frames, evenly spread over the time allowed, are kept in the result.
     film : bool
-        Keep a film of what happened, for ``answer.film`` and the page.
+        Keep a film, for ``answer.film`` and the page.
     skip_verdict : bool
         Do not ask for the verdict as well.
+    law : {"coulomb", "associative"}
+        How joints slide: dry friction, or opening by friction times slip; the second finds the
+        bound alone, and is faster.
+    threads : int
+        Threads of the simulation; 0 for one a processor. More than four a processor are not
+        started. The answer does not depend on them.
+    keep_all : bool
+        Do without reductions, such as those by symmetry; nothing is neglected by them.
+    time_limit : float, optional
+        Seconds after which the best answer so far is given, more than 0.
+    progress : callable or bool
+        Called with the work done, the total and a text; ``True`` for a bar of tqdm.
+
+    Returns
+    -------
+    Simulation
+        ``fate``, ``collapse`` (s), ``film``; observed, not proved.
+
+    Raises
+    ------
+    InputError
+        The scene or an option cannot be used as it is.
+    VoussoirError
+        There is no answer; :class:`TimeIsUp` where there was no time for one.
+
+    References
+    ----------
+    ``docs/guide/simulation.md``.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> table = voussoir.Scene("Table", friction=0.6, density=2400)
+    >>> table = table.box("ground", (2, 2, 0.2), at=(0, 0, -0.1), support=True)
+    >>> table = table.box("block", (0.4, 0.4, 1), at=(0, 0, 0.5))
+    >>> answer = voussoir.simulate(table, fast=True)
+    >>> answer.fate, answer.verdict.value
+    ('stands', 'stable')
     """
     options: dict[str, Any] = {
         "fast": fast,
@@ -624,26 +1143,70 @@ def shake(
     threads: int = 1,
     progress: Progress = False,
 ) -> Shaken:
-    """What do all blocks do on ground that moves? One history, not a proof.
+    """What do all blocks do on ground that moves? One time history, not a proof.
 
     Parameters
     ----------
+    scene : Scene, path or mapping
+        The scene, the path of its file, or what stands in one.
     pulse : mapping, optional
         A formula: ``{"half_sine": {"acceleration": 3, "duration": 0.5}}`` (m/s², s), ``sine`` and
         ``rectangle`` alike, ``{"jump": {"velocity": 0.5}}`` (m/s).
-    accelerations : array, optional
-        A record in its place: samples in m/s², shape (n,) or (n, 1 to 3): towards ``toward``, to the
-        left of it, up.
-    step : float
-        Seconds between two samples.
+    accelerations : array of shape (n,) or (n, 1 to 3), optional
+        A record in its place, m/s²: towards ``toward``, to the left of it, up.
+    step : float, optional
+        Seconds between two samples of the record.
+    name : str
+        Name of the record.
     scale : float
-        The motion is multiplied by this.
+        Multiplies the motion.
+    toward : (x, y, z)
+        Where the first component points.
     fast : bool
         Fast steps.
     seconds : float, optional
         Time to simulate at most, s.
+    to_the_end : bool
+        Until then although the outcome is clear.
     frames : int
-        So many times are kept in the result.
+        This many frames are kept in the result.
+    film : bool
+        Keep a film, for ``answer.film`` and the page.
+    threads : int
+        Threads of the simulation; 0 for one a processor. More than four a processor are not
+        started. The answer does not depend on them.
+    keep_all : bool
+        Do without reductions, such as those by symmetry; nothing is neglected by them.
+    time_limit : float, optional
+        Seconds after which the best answer so far is given, more than 0.
+    progress : callable or bool
+        Called with the work done, the total and a text; ``True`` for a bar of tqdm.
+
+    Returns
+    -------
+    Shaken
+        ``fate``, ``overturned``, ``motions`` of all blocks, ``film``.
+
+    Raises
+    ------
+    InputError
+        The scene or an option cannot be used as it is.
+    VoussoirError
+        There is no answer; :class:`TimeIsUp` where there was no time for one.
+
+    References
+    ----------
+    ``docs/ground.md``.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> table = voussoir.Scene("Table", friction=0.6, density=2400)
+    >>> table = table.box("ground", (2, 2, 0.2), at=(0, 0, -0.1), support=True)
+    >>> table = table.box("block", (0.4, 0.4, 1), at=(0, 0, 0.5))
+    >>> sine = {"sine": {"acceleration": 1, "duration": 0.5}}
+    >>> voussoir.shake(table, pulse=sine, fast=True).fate
+    'rests'
     """
     ground: dict[str, Any] = {"scale": float(scale)}
     if pulse is not None:
@@ -687,10 +1250,51 @@ def repose(
     time_limit: float | None = None,
     progress: Progress = False,
 ) -> Packing:
-    """How steep may a packing of grains be: the greatest tilt of gravity that it bears as it lies.
+    """How steep may a packing of grains be: the greatest tilt that it bears as it lies.
 
-    ``moving_mass`` is the share of the grains' mass that has to move, ``toward`` and ``all`` are
-    those of :func:`tilt`.
+    Parameters
+    ----------
+    scene : Scene, path or mapping
+        The scene, the path of its file, or what stands in one.
+    toward : (x, y), (x, y, z), or several of them, optional
+        Directions of the tilt.
+    all : int, optional
+        This many directions instead, evenly spread, the first along x. Default 8.
+    moving_mass : float
+        Share of the grains' mass that has to move, 0 to 1.
+    law : {"coulomb", "associative"}
+        How joints slide: dry friction, or opening by friction times slip; the second finds the
+        bound alone, and is faster.
+    keep_all : bool
+        Do without reductions, such as those by symmetry; nothing is neglected by them.
+    time_limit : float, optional
+        Seconds after which the best answer so far is given, more than 0.
+    progress : callable or bool
+        Called with the work done, the total and a text; ``True`` for a bar of tqdm.
+
+    Returns
+    -------
+    Packing
+        ``tilt_deg`` and ``toward`` of the least direction; ``directions``.
+
+    Raises
+    ------
+    InputError
+        The scene or an option cannot be used as it is.
+    VoussoirError
+        There is no answer; :class:`TimeIsUp` where there was no time for one.
+
+    References
+    ----------
+    ``docs/grains.md``.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> grains = voussoir.Scene("Grains", friction=0.3, density=2500)
+    >>> grains = grains.add(voussoir.Lattice(packing="square", radius=1, layers=1, side=2))
+    >>> round(voussoir.repose(grains, all=4).tilt_deg.value, 4)
+    35.2644
     """
     options = {"law": law, "moving_mass": moving_mass, **_directions(toward, all)}
     answer = _ask(
@@ -699,8 +1303,176 @@ def repose(
     return Packing(answer)
 
 
+def combinations(
+    scene: SceneLike,
+    ask: str | Mapping[str, Any] = "limit",
+    *,
+    only: Sequence[str] = (),
+    keep_all: bool = False,
+    time_limit: float | None = None,
+    progress: Progress = False,
+) -> Combinations:
+    """What is the answer to a question in every combination of actions?
+
+    Parameters
+    ----------
+    scene : Scene, path or mapping
+        The scene, the path of its file, or what stands in one.
+    ask : str or mapping
+        The question, ``"assess"``, ``"limit"``, ``"moving"``, ``"tilt"`` or ``"kinematic"``, or with
+        its options: ``{"limit": {"law": "associative"}}``.
+    only : sequence of str
+        Names of combinations; all where none is named.
+    keep_all : bool
+        Do without reductions, such as those by symmetry; nothing is neglected by them.
+    time_limit : float, optional
+        Seconds after which the best answer so far is given, more than 0.
+    progress : callable or bool
+        Called with the work done, the total and a text; ``True`` for a bar of tqdm.
+
+    Returns
+    -------
+    Combinations
+        ``governing``, the name of the worst; all in ``each``.
+
+    Raises
+    ------
+    InputError
+        The scene or an option cannot be used as it is.
+    VoussoirError
+        There is no answer; :class:`TimeIsUp` where there was no time for one.
+
+    References
+    ----------
+    ``docs/guide/requirements.md``.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> table = voussoir.Scene("Table", friction=0.6, density=2400)
+    >>> table = table.box("ground", (2, 2, 0.2), at=(0, 0, -0.1), support=True)
+    >>> table = table.box("block", (0.4, 0.4, 1), at=(0, 0, 0.5))
+    >>> table = table.load("live", weight=(1, 0, 0))
+    >>> table = table.add(voussoir.Combination(name="ultimate", factors={"dead": 1, "live": 1.5}))
+    >>> answer = voussoir.combinations(table, "limit")
+    >>> answer.governing, round(answer.each[0].required.obtained, 4), answer.each[0].required.met
+    ('ultimate', 0.2667, False)
+    """
+    question = {"combinations": {"ask": _nested(ask), "only": list(only)}}
+    answer = _ask(
+        scene, question, keep_all=keep_all, time_limit=time_limit, progress=progress
+    )
+    return Combinations(answer)
+
+
+def meet(
+    scene: SceneLike,
+    ask: str | Mapping[str, Any],
+    vary: str,
+    between: tuple[float, float],
+    *,
+    scan: int | None = None,
+    keep_all: bool = False,
+    time_limit: float | None = None,
+    progress: Progress = False,
+) -> Meet:
+    """At what value of a number in the scene is what is required of a question met?
+
+    Parameters
+    ----------
+    scene : Scene, path or mapping
+        The scene, the path of its file, or what stands in one.
+    ask : str or mapping
+        The question, ``"assess"``, ``"limit"``, ``"moving"``, ``"tilt"`` or ``"kinematic"``, or with
+        its options: ``{"limit": {"law": "associative"}}``.
+        What is required stands among them, as ``"require"``, or in the scene.
+    vary : str
+        JSON pointer of the number: ``/templates/0/arch/thickness``.
+    between : (float, float)
+        The range, in the number's own unit.
+    scan : int, optional
+        Values that are scanned, both ends among them. Default 9.
+    keep_all : bool
+        Do without reductions, such as those by symmetry; nothing is neglected by them.
+    time_limit : float, optional
+        Seconds after which the best answer so far is given, more than 0.
+    progress : callable or bool
+        Called with the work done, the total and a text; ``True`` for a bar of tqdm.
+
+    Returns
+    -------
+    Meet
+        ``changes``, each with the nearest proved values on both sides.
+
+    Raises
+    ------
+    InputError
+        The scene or an option cannot be used as it is.
+    VoussoirError
+        There is no answer; :class:`TimeIsUp` where there was no time for one.
+
+    References
+    ----------
+    ``docs/guide/requirements.md``.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> table = voussoir.Scene("Table", friction=0.6, density=2400)
+    >>> table = table.box("ground", (2, 2, 0.2), at=(0, 0, -0.1), support=True)
+    >>> table = table.box("block", (0.4, 0.4, 1), at=(0, 0, 0.5))
+    >>> tilt = {"tilt": {"toward": [[1, 0, 0]], "require": 15}}
+    >>> (change,) = voussoir.meet(table, tilt, "/joints/default/friction", (0.1, 0.6)).changes
+    >>> round(change.met_at, 4)
+    0.2679
+    """
+    options = {"ask": _nested(ask), "vary": vary, "between": list(between), **_given(scan=scan)}
+    question = {"meet": options}
+    answer = _ask(
+        scene, question, keep_all=keep_all, time_limit=time_limit, progress=progress
+    )
+    return Meet(answer)
+
+
+def _nested(ask: str | Mapping[str, Any]) -> Mapping[str, Any]:
+    return {ask: {}} if isinstance(ask, str) else ask
+
+
 def load_answer(path: str | os.PathLike[str]) -> Any:
-    """Read a result that :meth:`Answer.save` or ``--save`` wrote. Nothing is proved by reading it:
-    :func:`check` does that."""
+    """Read a result that :meth:`Answer.save` or ``voussoir --save`` wrote.
+
+    Its proof is derived again; what only a solver can compute again is left to :func:`check`.
+
+    Parameters
+    ----------
+    path : path
+        The file.
+
+    Returns
+    -------
+    Answer
+        Of the class of its question.
+
+    Raises
+    ------
+    InputError
+        The file is not a result of this version.
+    VoussoirError
+        Its evidence does not prove what it claims.
+
+    References
+    ----------
+    ``docs/answers.md``.
+
+    Examples
+    --------
+    >>> import pathlib, tempfile, voussoir
+    >>> arch = voussoir.Scene("Arch", friction=0.7, density=2400)
+    >>> arch = arch.add(voussoir.Arch(radius=1, thickness=0.15, depth=1, voussoirs=9))
+    >>> path = pathlib.Path(tempfile.mkdtemp()) / "arch.json"
+    >>> voussoir.assess(arch).save(path)
+    >>> voussoir.load_answer(path).verdict.value
+    'stable'
+    """
     with open(path, encoding="utf-8") as file:
         return of_core(_core.Answer.read(os.fspath(path), file.read()))

@@ -4,7 +4,19 @@ from __future__ import annotations
 
 
 class VoussoirError(Exception):
-    """There is no answer: the system refuses, or something cannot be done."""
+    """There is no answer: the system refuses, or something cannot be done.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> scene = voussoir.Scene(friction=0.6, density=2400).box("ground", (1, 1, 1), support=True)
+    >>> answer = voussoir.assess(scene.box("block", (1, 1, 1), at=(0, 0, 1)))
+    >>> try:
+    ...     answer.table("nothing")
+    ... except voussoir.VoussoirError as error:
+    ...     print(error)
+    there is no table nothing; the tables are joints, blocks, members and path
+    """
 
 
 class InputError(VoussoirError, ValueError):
@@ -17,11 +29,20 @@ class InputError(VoussoirError, ValueError):
     path : str
         The place inside the scene, such as ``blocks[3].density``; empty where it is about the whole.
     remedy : str or None
-        What to do about it.
+        What to do.
     file : str or None
         The file, where there is one.
     line, column : int or None
         The place in the file, counted from 1.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> try:
+    ...     voussoir.Scene().box("block", (1, 1, 1), at=(0, 0, float("nan")))
+    ... except voussoir.InputError as error:
+    ...     print(error.path, "|", error.message)
+    blocks[0].at[2] | must be a finite number
     """
 
     def __init__(
@@ -53,9 +74,30 @@ class InputError(VoussoirError, ValueError):
 
 
 class TimeIsUp(VoussoirError, TimeoutError):
-    """Nothing came out within ``time_limit``."""
+    """There was no time for any answer within ``time_limit``.
+
+    Mostly a time limit leaves an answer that is ``undecided``, with the best bracket so far.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> issubclass(voussoir.TimeIsUp, TimeoutError)
+    True
+    """
 
 
 class SceneWarning(UserWarning):
     """Numbers, axes or loads that look as if another scene were meant, or contacts that were left
-    out and change the answer. Said once a place in the code, as Python's warnings are."""
+    out and change the answer.
+
+    Examples
+    --------
+    >>> import voussoir, warnings
+    >>> scene = voussoir.Scene(friction=0.6, density=2400, gravity=(0, 0, 9.81))
+    >>> scene = scene.box("ground", (1, 1, 1), support=True).box("block", (1, 1, 1), at=(0, 0, 1))
+    >>> with warnings.catch_warnings(record=True) as caught:
+    ...     warnings.simplefilter("always")
+    ...     _ = voussoir.assess(scene)
+    >>> caught[0].category.__name__
+    'SceneWarning'
+    """

@@ -12,9 +12,10 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._answers import Array, Finding, Verification, _verification, _write
+from ._answers import Array, Finding, Verification, _verification, _write, fixed
 from ._ask import Law, Progress
 from ._answers import Answer
+from ._errors import InputError
 from ._progress import shown
 from ._scene import Scene, SceneLike, core, load
 
@@ -27,20 +28,41 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Many:
-    """The answers about n scenes, in their order."""
+    """The answer of :func:`assess_many` about n scenes, in their order.
+
+    Attributes
+    ----------
+    verdicts : array of str, shape (n,)
+        ``stable``, ``conditional``, ``unstable``, ``undecided`` or ``error``.
+    equilibrium_error : array of shape (n, 2)
+        Bracket of the least equilibrium error, in multiples of gravity.
+    margins : array of shape (n,)
+        The margin that was asked for; NaN where there is none.
+    brackets : array of shape (n, 2)
+        Lower and upper ends of the margins.
+    status : array of str, shape (n,)
+        What became of each margin: ``found``, ``unbounded``, ``impossible``, ...
+    errors : dict of int to str
+        Why a scene has no answer.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> def pile(shift):
+    ...     scene = voussoir.Scene(friction=0.6, density=2400)
+    ...     scene.box("ground", (2, 2, 0.2), at=(0, 0, -0.1), support=True)
+    ...     return scene.box("a", (1, 1, 1), (0, 0, 0.5)).box("b", (1, 1, 1), (shift, 0, 1.5))
+    >>> many = voussoir.assess_many([pile(0.4), pile(0.6)])
+    >>> many.verdicts.tolist(), many.stands.tolist()
+    (['stable', 'unstable'], [True, False])
+    """
 
     verdicts: npt.NDArray[np.str_]
-    """``stable``, ``conditional``, ``unstable``, ``undecided`` or ``error``; shape (n,)."""
     equilibrium_error: Array
-    """Bracket of the least equilibrium error, in multiples of gravity; shape (n, 2)."""
     margins: Array
-    """The margin that was asked for: how far from falling; NaN where there is none; shape (n,)."""
     brackets: Array
-    """Lower and upper ends of the margins; shape (n, 2)."""
     status: npt.NDArray[np.str_]
-    """What became of each margin: ``found``, ``unbounded``, ``impossible``, …; shape (n,)."""
     errors: dict[int, str]
-    """Why a scene has no answer."""
 
     def __len__(self) -> int:
         return len(self.verdicts)
@@ -48,10 +70,9 @@ class Many:
     @property
     def stands(self) -> npt.NDArray[np.bool_]:
         """Whether each stands; shape (n,)."""
-        stands: npt.NDArray[np.bool_] = self.verdicts == "stable"
-        return stands
+        return fixed(self.verdicts == "stable", np.bool_)
 
-    def to_pandas(self) -> pandas.DataFrame:
+    def to_frame(self) -> pandas.DataFrame:
         """One row a scene."""
         import pandas
 
@@ -69,7 +90,8 @@ class Many:
 
 def _column(told: Any) -> tuple[npt.NDArray[np.str_], Array, Array, dict[int, str]]:
     status, value, lower, upper, errors = told
-    return np.asarray(status, dtype=np.str_), value, np.column_stack([lower, upper]), dict(errors)
+    brackets = fixed(np.column_stack([lower, upper]))
+    return fixed(status, np.str_), value, brackets, dict(errors)
 
 
 def assess_many(
@@ -82,20 +104,50 @@ def assess_many(
     threads: int = 0,
     progress: Progress = False,
 ) -> Many:
-    """Assess many scenes on threads, without any text in between.
+    """Assess many scenes on threads.
 
     Parameters
     ----------
-    scenes : scenes, paths or mappings
-    margin : "equilibrium_error", "limit" or "tilt"
-        What ``margins`` holds: minus the least equilibrium_error in multiples of gravity (0 where forces
-        exist, less where it falls), the load factor on the live load, or the tilt in degrees.
-    toward : two or three numbers, optional
-        The direction of the tilt; the least of eight where none is given.
+    scenes : iterable of Scene, path or mapping
+        n scenes.
+    margin : {"equilibrium_error", "limit", "tilt"}
+        What ``margins`` holds: minus the least equilibrium error in multiples of gravity (0 where
+        forces exist, less where it falls), the load factor on the live load, or the tilt in degrees.
+    toward : (x, y) or (x, y, z), optional
+        Direction of the tilt; the least of eight where none is given.
+    law : {"coulomb", "associative"}
+        How joints slide: dry friction, or opening by friction times slip.
+    keep_all : bool
+        Do without reductions, such as those by symmetry.
     threads : int
-        0 for as many as there are processors.
+        0 for one a processor. More than four a processor are not started.
+    progress : callable or bool
+        Called with the work done, the total and a text; ``True`` for a bar of tqdm.
 
-    A scene that cannot be asked about is ``error``, and ``errors`` says why; nothing is raised.
+    Returns
+    -------
+    Many
+        A scene that cannot be asked about has the verdict ``error``, with the reason in ``errors``.
+
+    Raises
+    ------
+    InputError
+        A scene that cannot be read, or an option that cannot be used.
+
+    References
+    ----------
+    ``docs/guide/law.md``.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> table = voussoir.Scene("Table", friction=0.6, density=2400)
+    >>> table = table.box("ground", (2, 2, 0.2), at=(0, 0, -0.1), support=True)
+    >>> slender = table.copy().box("block", (0.2, 0.4, 1), at=(0, 0, 0.5))
+    >>> sturdy = table.copy().box("block", (0.4, 0.4, 1), at=(0, 0, 0.5))
+    >>> many = voussoir.assess_many([slender, sturdy], margin="tilt", toward=(1, 0))
+    >>> many.margins.round(3).tolist()
+    [11.31, 21.801]
     """
     questions: list[dict[str, Any]] = [{"assess": {"law": law}}]
     if margin == "limit":
@@ -104,7 +156,8 @@ def assess_many(
         directions = {} if toward is None else {"toward": [[*map(float, toward), 0.0][:3]]}
         questions.append({"tilt": {"law": law, **directions}})
     elif margin != "equilibrium_error":
-        raise ValueError(f"margin is equilibrium error, limit or tilt, not {margin!r}")
+        hint = "one of equilibrium_error, limit, tilt"
+        raise InputError(f"unknown value {margin!r}", "margin", hint)
     listed = [core(scene) for scene in scenes]
     with shown(progress) as tell:
         told = _core.ask_many(
@@ -112,7 +165,8 @@ def assess_many(
         )
     verdicts, _, equilibrium_error, errors = _column(told[0])
     if margin == "equilibrium_error":
-        return Many(verdicts, equilibrium_error, -equilibrium_error[:, 1], -equilibrium_error[:, ::-1], verdicts, errors)
+        margins, brackets = fixed(-equilibrium_error[:, 1]), fixed(-equilibrium_error[:, ::-1])
+        return Many(verdicts, equilibrium_error, margins, brackets, verdicts, errors)
     status, value, brackets, more = _column(told[1])
     return Many(verdicts, equilibrium_error, value, brackets, status, {**more, **errors})
 
@@ -121,12 +175,26 @@ def assess_many(
 
 
 class Sweep:
-    """The rows of a sweep and what they have in common."""
+    """The answer of :func:`sweep`: rows, and what they have in common.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> arch = voussoir.Scene("Arch", friction=0.7, density=2400).load("live", weight=(1, 0, 0))
+    >>> arch = arch.add(voussoir.Arch(radius=1, thickness=0.2, depth=1, voussoirs=9))
+    >>> thickness = {"pointer": "/templates/0/arch/thickness", "values": [0.15, 0.2]}
+    >>> rows = voussoir.sweep({"question": {"limit": {}}, "vary": [thickness]}, arch)
+    >>> len(rows), rows.status, bool(rows.values[0] < rows.values[1])
+    (2, ['found', 'found'], True)
+    """
 
     def __init__(self, rows: _core.Rows, output: str | None) -> None:
         self._core = rows
         self.output = output
         """The file of rows, where it was named; the command continues and merges such files."""
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (_sweep_restored, (self._core.state(), self.output))
 
     def __len__(self) -> int:
         return len(self._core)
@@ -163,7 +231,7 @@ class Sweep:
         """The summary, as ``--json`` prints it."""
         return self._core.json()
 
-    def to_pandas(self) -> pandas.DataFrame:
+    def to_frame(self) -> pandas.DataFrame:
         """One row a scene: what varies, then ``status``, ``value``, ``lower``, ``upper``, …"""
         import pandas
 
@@ -192,6 +260,10 @@ class Sweep:
         return self._core.svg()
 
 
+def _sweep_restored(state: str, output: str | None) -> Sweep:
+    return Sweep(_core.Rows.restored(state), output)
+
+
 def sweep(
     plan: str | os.PathLike[str] | Mapping[str, Any],
     scene: SceneLike | None = None,
@@ -202,21 +274,50 @@ def sweep(
     allow_outside: bool = False,
     progress: Progress = False,
 ) -> Sweep:
-    """Ask a question of many scenes that differ in a few numbers or words.
+    """Ask one question of many scenes that differ in a few numbers or words.
 
     Parameters
     ----------
     plan : path or mapping
         A plan file, or what stands in one: ``{"question": {"limit": {}}, "vary": [{"pointer":
-        "/templates/0/arch/thickness", "from": 0.1, "to": 0.2, "count": 11}]}``.
-    scene : scene, path or mapping
+        "/templates/0/arch/thickness", "from": 0.1, "to": 0.2, "count": 11}]}``. Each of ``vary`` has
+        a JSON ``pointer``, a ``name``, and ``values``, or ``from``, ``to`` and ``count``, or
+        ``normal`` or ``lognormal`` with ``sampling``; ``voussoir schema plan`` has all keys.
+    scene : Scene, path or mapping, optional
         Beside a mapping, which then needs no ``"scene"``.
     output : path, optional
         The file of rows: each is written as it ends, and the same call continues after a stop.
     restart : bool
         Begin again where rows of another plan are in the file.
     threads : int
-        0 for as many as there are processors; rows do not depend on it.
+        0 for one a processor. More than four a processor are not started. Rows do not depend on it.
+    allow_outside : bool
+        Whether paths in a plan file may leave its folder.
+    progress : callable or bool
+        Called with the work done, the total and a text; ``True`` for a bar of tqdm.
+
+    Returns
+    -------
+    Sweep
+        ``parameters``, ``values``, ``status``, ``summary``; ``to_frame``, ``svg``, ``report``.
+
+    Raises
+    ------
+    InputError
+        The plan or the scene cannot be used as it is.
+
+    References
+    ----------
+    ``docs/guide/sweeps.md``.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> arch = voussoir.Scene("Arch", friction=0.7, density=2400).load("live", weight=(1, 0, 0))
+    >>> arch = arch.add(voussoir.Arch(radius=1, thickness=0.2, depth=1, voussoirs=9))
+    >>> friction = {"pointer": "/joints/default/friction", "values": [0.5, 0.7]}
+    >>> voussoir.sweep({"question": {"limit": {}}, "vary": [friction]}, arch).status
+    ['found', 'found']
     """
     with tempfile.TemporaryDirectory(prefix="voussoir-") as folder, shown(progress) as tell:
         rows = os.path.join(folder, "rows.jsonl") if output is None else os.fspath(output)
@@ -224,7 +325,7 @@ def sweep(
             whole = {"format": "voussoir-sweep/1", "scene": "scene", **plan}
             subject = scene if scene is not None else plan.get("scene")
             if subject is None:
-                raise ValueError("a plan of plain values needs a scene beside it")
+                raise InputError("a plan of plain values needs a scene beside it", "scene")
             if not isinstance(whole["scene"], str):
                 whole["scene"] = "scene"
             found = _core.sweep_scene(
@@ -232,7 +333,7 @@ def sweep(
             )
         else:
             if scene is not None:
-                raise ValueError("a plan file names its scene itself")
+                raise InputError("a plan file names its scene itself", "scene")
             found = _core.sweep_file(
                 os.fspath(plan),
                 rows,
@@ -248,11 +349,22 @@ def sweep(
 
 
 class Heaps:
-    """Heaps that flowed and came to rest, one a seed."""
+    """The answer of :func:`heaps`: heaps that flowed and came to rest, one a seed.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> heaps = voussoir.heaps("funnel", grains=30, seeds=[3], skip_margin=True)
+    >>> len(heaps), len(heaps.scenes)
+    (1, 1)
+    """
 
     def __init__(self, heaps: _core.Heaps) -> None:
         self._core = heaps
         self._data: dict[str, Any] = heaps.plain()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (_heaps_restored, (self._core.state(),))
 
     def __len__(self) -> int:
         return len(self._data["heaps"])
@@ -288,7 +400,7 @@ class Heaps:
     def margins_deg(self) -> Array:
         """The tilt downhill that each heap at rest still bears, degrees; NaN where none was found."""
         margins = [(h.get("margin") or {}).get("margin_deg") for h in self._data["heaps"]]
-        return np.array([np.nan if m is None else m for m in margins], dtype=np.float64)
+        return fixed([np.nan if m is None else m for m in margins])
 
     @property
     def scenes(self) -> list[Scene]:
@@ -303,7 +415,7 @@ class Heaps:
         """The same, as ``--json`` prints it."""
         return self._core.json()
 
-    def to_pandas(self) -> pandas.DataFrame:
+    def to_frame(self) -> pandas.DataFrame:
         """One row a heap."""
         import pandas
 
@@ -323,6 +435,10 @@ class Heaps:
         return frame
 
 
+def _heaps_restored(state: str) -> Heaps:
+    return Heaps(_core.Heaps.restored(state))
+
+
 def heaps(
     protocol: Literal["drain", "funnel", "cylinder", "tilt", "drum", "hopper", "shear"],
     *,
@@ -334,20 +450,47 @@ def heaps(
     **values: Any,
 ) -> Heaps:
     """Make heaps of grains and measure their angle of repose, or what a drum, a hopper or a shear
-    box shows: what the command does with
-    ``repose PROTOCOL --question repose``.
+    box shows, as ``voussoir repose PROTOCOL --question repose`` does.
 
     Parameters
     ----------
-    seeds : int or numbers
-        So many seeds from 0 on, or these.
+    protocol : {"drain", "funnel", "cylinder", "tilt", "drum", "hopper", "shear"}
+        How the grains flow.
+    seeds : int or sequence of int
+        This many seeds from 0 on, or these.
     skip_margin : bool
         Do not ask for the static margin of the heaps at rest.
-    values
+    keep_all : bool
+        Do without reductions, such as those by symmetry.
+    threads : int
+        0 for one a processor. More than four a processor are not started.
+    progress : callable or bool
+        Called with the work done, the total and a text; ``True`` for a bar of tqdm.
+    **values
         ``grains=400``, ``grain="clump"``, ``elongation``, ``corners``, ``diameter`` (m), ``sizes``,
         ``friction``, ``wall_friction``, ``rolling_arm``, ``restitution``, ``density``, ``size``,
-        ``rate``, ``pressure``, ``drop``, ``floor``. A grading curve is ``sizes=[[0.002, 0], [0.004, 0.4], [0.008, 1]]``
-        with ``diameter`` the unit of lengths.
+        ``rate``, ``pressure``, ``drop``, ``floor``. A grading curve is
+        ``sizes=[[0.002, 0], [0.004, 0.4], [0.008, 1]]`` with ``diameter`` the unit of lengths.
+
+    Returns
+    -------
+    Heaps
+        ``angle_deg``, ``margins_deg``, ``scenes``, ``to_frame``.
+
+    Raises
+    ------
+    InputError
+        A value that no protocol can have.
+
+    References
+    ----------
+    ``docs/grains.md``.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> len(voussoir.heaps("funnel", grains=30, seeds=1, skip_margin=True))
+    1
     """
     listed = list(range(seeds)) if isinstance(seeds, int) else [int(s) for s in seeds]
     with shown(progress) as tell:
@@ -368,10 +511,24 @@ def heaps(
 
 @dataclass(frozen=True)
 class Inspection:
-    """What was looked for in a scene: mistakes, near misses, overlaps, loose blocks."""
+    """What was found in a scene: mistakes, near misses, overlaps, loose blocks. True where there is
+    no mistake.
+
+    Attributes
+    ----------
+    findings : list of Finding
+        All findings.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> scene = voussoir.Scene(friction=0.6, density=2400).box("ground", (1, 1, 1), support=True)
+    >>> found = voussoir.check(scene.box("block", (1, 1, 1), at=(0, 0, 1.004)))
+    >>> bool(found), [f.code for f in found.mistakes]
+    (False, ['near_miss', 'unjoined', 'floating'])
+    """
 
     findings: list[Finding]
-    """All that is to be known."""
 
     @property
     def mistakes(self) -> list[Finding]:
@@ -389,13 +546,36 @@ class Inspection:
 def check(
     what: Answer | SceneLike, scene: SceneLike | None = None
 ) -> Verification | Inspection:
-    """Prove a saved answer from its scene, or look for mistakes in a scene.
+    """Verify an answer from its scene, or look for mistakes in a scene.
 
     Parameters
     ----------
-    what : answer, scene, or the path of one of them
-    scene : scene, optional
-        Prove the answer from this scene instead of its own.
+    what : Answer, Scene, mapping or path
+        An answer, a scene, or the file of one of them.
+    scene : Scene, path or mapping, optional
+        Verify the answer for this scene instead of its own.
+
+    Returns
+    -------
+    Verification or Inspection
+        Of an answer, of a scene; each is true where all is well.
+
+    Raises
+    ------
+    InputError
+        The file is neither a result nor a scene.
+
+    References
+    ----------
+    ``docs/guide/proofs.md``.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> arch = voussoir.Scene("Arch", friction=0.7, density=2400)
+    >>> arch = arch.add(voussoir.Arch(radius=1, thickness=0.15, depth=1, voussoirs=9))
+    >>> bool(voussoir.check(arch)), bool(voussoir.check(voussoir.assess(arch)))
+    (True, True)
     """
     if isinstance(what, Answer):
         other = None if scene is None else core(scene)
@@ -407,5 +587,5 @@ def check(
             other = None if scene is None else core(scene)
             return _verification(_core.check_saved(os.fspath(what), text, other))
     if scene is not None:
-        raise ValueError("only answers are proved from a scene")
+        raise InputError("only answers are verified from a scene", "scene")
     return Inspection([Finding(*each) for each in load(what)._core.findings()])

@@ -9,10 +9,11 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._answers import Array
+from ._answers import Array, fixed
 from ._ask import Progress
+from ._errors import InputError
 from ._progress import shown
-from ._scene import SceneLike, core
+from ._scene import SceneLike, load
 
 if TYPE_CHECKING:
     import pandas
@@ -20,21 +21,41 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Piled:
-    """The answers about n piles, in their order."""
+    """The answer of :meth:`Piles.assess` about n piles, in their order.
+
+    Attributes
+    ----------
+    verdicts : array of str, shape (n,)
+        ``stable``, ``conditional``, ``unstable``, ``undecided`` or ``error``.
+    margins : array of shape (n,)
+        The greatest horizontal acceleration, in multiples of gravity, that each pile bears in every
+        direction: the lower end of its bracket; NaN where there is none.
+    brackets : array of shape (n, 2)
+        Lower and upper ends of the margins.
+    by : array of str, shape (n,)
+        What decided: ``statics`` where contacts form no closed chain, else ``program``.
+    errors : dict of int to str
+        Why a pile has no answer.
+    findings : dict of int to list of str
+        What was found about the contacts of a pile: overlaps, gaps, near misses.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> shapes = voussoir.Scene("shapes", friction=0.6, density=2400)
+    >>> shapes = shapes.box("ground", (4, 4, 0.2), support=True).box("brick", (0.4, 0.4, 0.2))
+    >>> at = [[(0, 0, -0.1), (0, 0, 0.1), (lean, 0, 0.3)] for lean in (0.1, 0.3)]
+    >>> told = voussoir.Piles(shapes).assess([[0, 1, 1], [0, 1, 1]], at)
+    >>> told.stands.tolist(), told.by.tolist()
+    ([True, False], ['statics', 'statics'])
+    """
 
     verdicts: npt.NDArray[np.str_]
-    """``stable``, ``conditional``, ``unstable``, ``undecided`` or ``error``; shape (n,)."""
     margins: Array
-    """The greatest horizontal acceleration, in multiples of gravity, that each pile bears in every
-    direction: the lower end of its bracket; NaN where there is none; shape (n,)."""
     brackets: Array
-    """Lower and upper ends of the margins; shape (n, 2)."""
     by: npt.NDArray[np.str_]
-    """What decided: ``statics`` where contacts form no closed chain, else ``program``."""
     errors: dict[int, str]
-    """Why a pile has no answer."""
     findings: dict[int, list[str]]
-    """What was found about the contacts of a pile: overlaps, gaps, near misses, with their numbers."""
 
     def __len__(self) -> int:
         return len(self.verdicts)
@@ -42,10 +63,9 @@ class Piled:
     @property
     def stands(self) -> npt.NDArray[np.bool_]:
         """Whether each stands; shape (n,)."""
-        stands: npt.NDArray[np.bool_] = self.verdicts == "stable"
-        return stands
+        return fixed(self.verdicts == "stable", np.bool_)
 
-    def to_pandas(self) -> pandas.DataFrame:
+    def to_frame(self) -> pandas.DataFrame:
         """One row a pile."""
         import pandas
 
@@ -63,22 +83,30 @@ class Piled:
 class Piles:
     """The blocks of a scene as shapes, each of which may be put anywhere, as often as wanted.
 
-    >>> import numpy as np, voussoir
-    >>> scene = voussoir.Scene("shapes", friction=0.6, density=2400)
-    >>> _ = scene.box("ground", (4, 4, 0.2), support=True).box("brick", (0.4, 0.4, 0.2))
-    >>> piles = voussoir.Piles(scene)
-    >>> which = np.array([[0, 1, 1], [0, 1, 1]])
-    >>> at = np.array([[(0, 0, -0.1), (0, 0, 0.1), (lean, 0, 0.3)] for lean in (0.1, 0.3)])
-    >>> told = piles.assess(which, at, margin=True)
+    Parameters
+    ----------
+    shapes : Scene, path or mapping
+        The scene. It gives materials, joints, gravity and contact tolerances, too; loads, members
+        and joints by the names of blocks are refused.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> shapes = voussoir.Scene("shapes", friction=0.6, density=2400)
+    >>> shapes = shapes.box("ground", (4, 4, 0.2), support=True).box("brick", (0.4, 0.4, 0.2))
+    >>> piles = voussoir.Piles(shapes)
+    >>> at = [[(0, 0, -0.1), (0, 0, 0.1), (lean, 0, 0.3)] for lean in (0.1, 0.3)]
+    >>> told = piles.assess([[0, 1, 1], [0, 1, 1]], at, margin=True)
     >>> [str(v) for v in told.verdicts], round(float(told.margins[0]), 6)
     (['stable', 'unstable'], 0.6)
-
-    The scene gives materials, joints, gravity and contact tolerances too; loads, members and joints
-    by the names of blocks are refused.
     """
 
     def __init__(self, shapes: SceneLike) -> None:
-        self._core = _core.Piles(core(shapes))
+        self._scene = load(shapes)
+        self._core = _core.Piles(self._scene._core)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (Piles, (self._scene,))
 
     @property
     def shapes(self) -> list[str]:
@@ -100,30 +128,40 @@ class Piles:
 
         Parameters
         ----------
-        which : whole numbers, shape (n, b)
-            The shape of each block, counted from 0; -1 for none.
-        at : shape (n, b, 3)
+        which : array of int, shape (n, b)
+            The shape of each block, from 0; -1 for none.
+        at : array of shape (n, b, 3)
             Where the origin of the scene of shapes comes, m.
-        turn : shape (n, b, 4), optional
-            How each block is turned about that origin: quaternions w, x, y, z.
-        masses : shape (n, b), optional
-            Masses in kg, instead of those of the shapes.
+        turn : array of shape (n, b, 4), optional
+            Rotation of each block about that origin: quaternions w, x, y, z.
+        masses : array of shape (n, b), optional
+            Masses in place of those of the shapes, kg.
         margin : bool
             Ask for the greatest horizontal acceleration that is borne in every direction.
         threads : int
-            0 for as many as there are processors.
+            0 for one a processor. More than four a processor are not started.
+        progress : callable or bool
+            Called with the work done, the total and a text; ``True`` for a bar of tqdm.
 
-        A pile that cannot be asked about is ``error``, and ``errors`` says why; nothing is raised.
+        Returns
+        -------
+        Piled
+            A pile that cannot be asked about has the verdict ``error``, with the reason in ``errors``.
+
+        Raises
+        ------
+        InputError
+            An array of another shape.
         """
         shape = np.ascontiguousarray(which, dtype=np.int64)
         if shape.ndim != 2:
-            raise ValueError(f"which has the shape (n, b), not {shape.shape}")
+            raise InputError(f"which has the shape (n, b), not {shape.shape}", "which")
 
         def as_given(name: str, values: npt.ArrayLike, *more: int) -> Array:
             array: Array = np.ascontiguousarray(values, dtype=np.float64)
             if array.shape != (*shape.shape, *more):
                 wanted = (*shape.shape, *more)
-                raise ValueError(f"{name} has the shape {wanted}, not {array.shape}")
+                raise InputError(f"{name} has the shape {wanted}, not {array.shape}", name)
             return array
 
         places = as_given("at", at, 3)
@@ -135,10 +173,10 @@ class Piles:
             )
         verdicts, lower, upper, by, errors, findings = told
         return Piled(
-            np.asarray(verdicts, dtype=np.str_),
+            fixed(verdicts, np.str_),
             lower,
-            np.column_stack([lower, upper]),
-            np.asarray(by, dtype=np.str_),
+            fixed(np.column_stack([lower, upper])),
+            fixed(by, np.str_),
             dict(errors),
             dict(findings),
         )

@@ -16,6 +16,8 @@ def shown(progress: Tell | bool) -> Iterator[Tell | None]:
         yield None
         return
     if progress is not True:
+        if not callable(progress):
+            raise TypeError(f"progress is a function or a bool, not {progress!r}")
         yield progress
         return
     try:

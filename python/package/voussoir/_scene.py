@@ -2,50 +2,71 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import os
-from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, Literal, TypeAlias
-
-import numpy as np
-import numpy.typing as npt
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from . import _core
 from ._errors import InputError
-from ._plain import without_none
+from ._plain import Value, Vector
+from ._scene_keys import Joint, Load, Material, SceneMethods
 
-Vector: TypeAlias = Sequence[float] | npt.NDArray[np.float64]
-"""Three numbers."""
+if TYPE_CHECKING:
+    from typing import Self
 
 SceneLike: TypeAlias = "Scene | str | os.PathLike[str] | Mapping[str, Any]"
 """A scene, the path of its file, or what stands in one."""
 
 Friction: TypeAlias = float | Literal["infinite"]
 
+Up: TypeAlias = Literal["x", "y", "z", "-x", "-y", "-z"]
+"""An axis of a file that points up."""
+
+ONE = ("contact", "require", "site", "train")
+"""Keys of a scene with one value."""
+
 
 def _three(vector: Vector) -> list[float]:
     return [float(x) for x in vector]
 
 
-class Scene:
-    """Blocks that only touch, with their joints and loads.
+class Scene(SceneMethods):
+    """Rigid blocks with their joints, loads and members.
 
-    Built in code, block by block, or read by :func:`load`. Units are SI: m, kg, s, N; z points up.
-    Methods that add something return the scene, so that they can be written one after the other.
+    Units are SI: m, kg, s, N; z points up. Methods that add something return the scene. What scene
+    files may hold has a class of the same name and keys: :class:`Block`, templates such as
+    :class:`Arch`, :class:`Dome` and :class:`Wall`, :class:`Member`, :class:`Stage`, :class:`Train`,
+    :class:`Site`.
 
     Parameters
     ----------
     name : str
         A name for people.
     friction : float or "infinite", optional
-        Coefficient of friction of every joint without an exception.
+        Coefficient of friction of all joints that have no rule of their own.
     density : float, optional
-        kg/m³, of blocks that are added without a density, a mass or a material.
+        kg/m³, of blocks and templates that are added without a density, mass or material.
     gravity : three numbers, optional
-        m/s²; 9.81 downward where nothing is said.
-    """
+        m/s². Default (0, 0, -9.81).
 
-    __slots__ = ("_core", "_density")
+    Examples
+    --------
+    >>> import voussoir
+    >>> table = voussoir.Scene("Table", friction=0.6, density=2400)
+    >>> table.box("ground", (2, 2, 0.2), at=(0, 0, -0.1), support=True)
+    <voussoir.Scene 'Table': 1 block>
+    >>> table.box("block", (0.4, 0.4, 1), at=(0, 0, 0.5)).load("live", weight=(1, 0, 0))
+    <voussoir.Scene 'Table': 2 blocks>
+    >>> round(float(voussoir.limit(table).load_factor), 6)
+    0.4
+
+    See Also
+    --------
+    load : read a scene file.
+    import_file : read files of other programs.
+    """
 
     def __init__(
         self,
@@ -71,286 +92,89 @@ class Scene:
         scene._density = None
         return scene
 
-    # ------------------------------------------------------------------ blocks
+    # ------------------------------------------------------------------- parts
 
-    def _spec(
-        self,
-        id: str,
-        shape: Mapping[str, Any],
-        at: Vector | None,
-        rotation: tuple[Vector, float] | None,
-        support: bool,
-        density: float | None,
-        mass: float | None,
-        material: str | None,
-        centroid: Vector | None,
-    ) -> dict[str, Any]:
-        spec: dict[str, Any] = {"id": id, "shape": shape}
-        if density is None and mass is None and material is None:
-            density = self._density
-        if at is not None:
-            spec["at"] = _three(at)
-        if rotation is not None:
-            spec["rotation_deg"] = {"axis": _three(rotation[0]), "angle": float(rotation[1])}
-        if support:
-            spec["support"] = True
-        if density is not None:
-            spec["density"] = density
-        if mass is not None:
-            spec["mass"] = mass
-        if material is not None:
-            spec["material"] = material
-        if centroid is not None:
-            spec["centroid"] = _three(centroid)
-        return spec
-
-    def box(
-        self,
-        id: str,
-        size: Vector,
-        at: Vector | None = None,
-        *,
-        rotation: tuple[Vector, float] | None = None,
-        support: bool = False,
-        density: float | None = None,
-        mass: float | None = None,
-        material: str | None = None,
-    ) -> Scene:
-        """Add a box.
+    def add(self, *things: Value) -> Self:
+        """Add blocks, templates, members, interfaces, stages, masses, combinations of actions; set
+        the train, the site, what is required.
 
         Parameters
         ----------
-        size : three numbers
-            Full lengths along x, y, z, m.
-        at : three numbers, optional
-            Its centre, m.
-        rotation : (axis, angle), optional
-            About its centre, degrees, right-handed.
-        support : bool
-            Whether it is held in place.
-        density : float, optional
-            kg/m³.
-        mass : float, optional
-            kg, in place of density × volume.
+        *things : Block, Arch, Member, Stage, Train, ...
+            Objects of the classes that scene files have.
+
+        Raises
+        ------
+        InputError
+            A value that no scene can have, with its place.
+
+        Examples
+        --------
+        >>> import voussoir
+        >>> scene = voussoir.Scene("Arch", friction=0.7, density=2400)
+        >>> scene.add(voussoir.Arch(radius=1, thickness=0.15, depth=1, voussoirs=9))
+        <voussoir.Scene 'Arch': 0 blocks, 1 template>
         """
-        shape = {"box": {"size": _three(size)}}
-        self._core.add_block(
-            self._spec(id, shape, at, rotation, support, density, mass, material, None)
-        )
+        for thing in things:
+            under = thing._under if isinstance(thing, Value) else None
+            if under is None:
+                raise TypeError(f"a {type(thing).__name__} is no block, template, member or the like")
+            put = self._core.set if under in ONE else self._core.add
+            put(under, self._with_density(thing))
         return self
 
-    def sphere(
-        self,
-        id: str,
-        radius: float,
-        at: Vector | None = None,
-        *,
-        support: bool = False,
-        density: float | None = None,
-        mass: float | None = None,
-        material: str | None = None,
-    ) -> Scene:
-        """Add a sphere of this radius (m) around ``at`` (m)."""
-        shape = {"sphere": {"radius": radius}}
-        self._core.add_block(self._spec(id, shape, at, None, support, density, mass, material, None))
-        return self
+    def _with_density(self, thing: Value) -> Value:
+        """The same with the density of the scene, where it has none of its own."""
+        keys = ("density", "mass", "material")
+        missing = all(getattr(thing, key, None) is None for key in keys)
+        if self._density is None or not missing:
+            return thing
+        if thing._under == "templates":
+            self.material("default", self._density)
+            return dataclasses.replace(thing, material="default")  # type: ignore[type-var]
+        if thing._under == "blocks":
+            return dataclasses.replace(thing, density=self._density)  # type: ignore[type-var]
+        return thing
 
-    def polyhedron(
-        self,
-        id: str,
-        vertices: npt.ArrayLike,
-        faces: Iterable[Sequence[int]],
-        at: Vector | None = None,
-        *,
-        rotation: tuple[Vector, float] | None = None,
-        support: bool = False,
-        density: float | None = None,
-        mass: float | None = None,
-        material: str | None = None,
-        centroid: Vector | None = None,
-    ) -> Scene:
-        """Add a closed polyhedron, convex or not.
+    def block(self, **values: Any) -> Self:
+        """Add a block by the keys of scene files, as plain values.
 
         Parameters
         ----------
-        vertices : array of shape (n, 3)
-            Corners in the block's own frame, m.
-        faces : loops of indices into ``vertices``
-            Counter-clockwise seen from outside.
-        at, rotation
-            Where the frame lies: turned about its origin first, then moved.
-        centroid : three numbers, optional
-            Centre of mass in the block's own frame, m, in place of that of the shape.
+        **values
+            As of :class:`Block`: ``block(id="b", shape={"sphere": {"radius": 1}}, density=2400)``.
         """
-        shape = {"sphere": {"radius": 1.0}}
-        self._core.add_polyhedron(
-            self._spec(id, shape, at, rotation, support, density, mass, material, centroid),
-            np.ascontiguousarray(vertices, dtype=np.float64),
-            [list(map(int, face)) for face in faces],
-        )
+        self._core.add("blocks", values)
         return self
 
-    def prism(
-        self,
-        id: str,
-        polygon: npt.ArrayLike,
-        depth: float,
-        at: Vector | None = None,
-        *,
-        rotation: tuple[Vector, float] | None = None,
-        support: bool = False,
-        density: float | None = None,
-        mass: float | None = None,
-        material: str | None = None,
-    ) -> Scene:
-        """Add a polygon of the x–z plane, shape (n, 2), m, extruded by ``depth`` (m) along y."""
-        corners = np.asarray(polygon, dtype=np.float64).tolist()
-        shape = {"prism": {"polygon": corners, "depth": depth}}
-        self._core.add_block(
-            self._spec(id, shape, at, rotation, support, density, mass, material, None)
-        )
-        return self
+    def template(self, kind: str, **values: Any) -> Self:
+        """Add a template by the keys of scene files, as plain values.
 
-    def block(self, **values: Any) -> Scene:
-        """Add a block as scene files have it: ``block(id="b", shape={"clump": …}, density=2400)``."""
-        self._core.add_block(values)
-        return self
-
-    def template(self, kind: str, **values: Any) -> Scene:
-        """Add a structure given by a few numbers: ``template("arch", voussoirs=27, …)``.
-
-        ``voussoir generate`` lists the kinds, ``voussoir generate arch --help`` the numbers of one.
+        Parameters
+        ----------
+        kind : str
+            ``"arch"``, ``"dome"``, ``"wall"``, ...: ``voussoir generate`` lists them.
+        **values
+            As of :class:`Arch`, :class:`Dome`, :class:`Wall`, ...
         """
         self._core.add("templates", {kind: values})
         return self
 
-    # ------------------------------------------------------- joints and loads
-
-    def joint(
-        self,
-        *,
-        between: tuple[str, str] | None = None,
-        blocks: tuple[str, str] | None = None,
-        friction: Friction | None = None,
-        friction_angle_deg: float | None = None,
-        cohesion: float | None = None,
-        tension: float | None = None,
-        compression: float | None = None,
-        pore_pressure: float | None = None,
-        rolling_arm: float | None = None,
-    ) -> Scene:
-        """Say how joints resist: all of them, or those ``between`` two materials or of two ``blocks``.
-
-        ``friction`` is a coefficient, strengths and pressures are in Pa, ``rolling_arm`` in m.
-        """
-        rule = without_none(
-            friction=friction,
-            friction_angle_deg=friction_angle_deg,
-            cohesion=cohesion,
-            tension=tension,
-            compression=compression,
-            pore_pressure=pore_pressure,
-            rolling_arm=rolling_arm,
-        )
-        if between is None and blocks is None:
+    def _joint(self, rule: Joint) -> Self:
+        if rule.between is None and rule.blocks is None:
             self._core.set("joint", rule)
         else:
-            where = without_none(
-                between=None if between is None else list(between),
-                blocks=None if blocks is None else list(blocks),
-            )
-            self._core.add("overrides", {**where, **rule})
+            self._core.add("overrides", rule)
         return self
 
-    def load(
-        self,
-        kind: Literal["live", "dead"],
-        block: str | None = None,
-        *,
-        force: Vector | None = None,
-        moment: Vector | None = None,
-        at: Vector | None = None,
-        arm: bool = False,
-        acceleration: Vector | None = None,
-        weight: Vector | None = None,
-    ) -> Scene:
-        """Add a load: ``"dead"`` ones are always there, ``"live"`` ones are multiplied by the load
-        factor.
-
-        Parameters
-        ----------
-        block : str, optional
-            The loaded block; every free one where ``acceleration`` or ``weight`` is given alone.
-        force, moment : three numbers, optional
-            N, N·m.
-        at : three numbers, optional
-            Where the force acts, m, in the scene; the block's centre of mass where nothing is said.
-        arm : bool
-            Whether an arm without weight carries the force to a point off the block.
-        acceleration : three numbers, optional
-            m/s².
-        weight : three numbers, optional
-            Multiples of each block's own weight.
-        """
+    def _load(self, kind: str, load: Load) -> Self:
         if kind not in ("live", "dead"):
-            raise InputError(f"a load is live or dead, not {kind!r}", "loads")
-        load: dict[str, Any] = without_none(block=block)
-        for key, value in (
-            ("force", force),
-            ("moment", moment),
-            ("at", at),
-            ("acceleration", acceleration),
-            ("weight", weight),
-        ):
-            if value is not None:
-                load[key] = _three(value)
-        if arm:
-            load["arm"] = True
+            raise InputError(f"must be 'live' or 'dead', got {kind!r}", "kind")
         self._core.add(kind, load)
         return self
 
-    def member(self, **values: Any) -> Scene:
-        """Add a tie, strut, tendon, dowel or the like, as scene files have it:
-        ``member(id="t", tie={…})``."""
-        self._core.add("members", values)
-        return self
-
-    def interface(
-        self,
-        a: str,
-        b: str,
-        points: npt.ArrayLike,
-        *,
-        normal: Vector | None = None,
-        friction: Friction | None = None,
-    ) -> Scene:
-        """Give a contact by hand: corners of shape (n, 3), m; contacts of the pair are not searched."""
-        spec: dict[str, Any] = {
-            "between": [a, b],
-            "points": np.asarray(points, dtype=np.float64).tolist(),
-        }
-        if normal is not None:
-            spec["normal"] = _three(normal)
-        if friction is not None:
-            spec["friction"] = friction
-        self._core.add("interfaces", spec)
-        return self
-
-    def material(self, name: str, density: float) -> Scene:
-        """Name a material of this density, kg/m³."""
-        materials = self._core.plain().get("materials", {})
-        self._core.set("materials", {**materials, name: {"density": density}})
-        return self
-
-    def contact(
-        self,
-        *,
-        gap: float | None = None,
-        angle_deg: float | None = None,
-        min_area: float | None = None,
-    ) -> Scene:
-        """Say when faces touch, relative to the size of the smaller block of a pair."""
-        self._core.set("contact", without_none(gap=gap, angle_deg=angle_deg, min_area=min_area))
+    def _material(self, name: str, values: Material) -> Self:
+        self._core.set("materials", {**self._core.plain().get("materials", {}), name: values})
         return self
 
     # ------------------------------------------------------------- to look at
@@ -385,7 +209,29 @@ class Scene:
             file.write(self.to_json())
 
     def inspect(self) -> dict[str, Any]:
-        """The scene as it was resolved, with every contact: ``"format": "voussoir-model/1"``."""
+        """The scene as it was resolved, with every contact.
+
+        Returns
+        -------
+        dict
+            ``blocks``: ``id``, ``support``, ``mass`` (kg), ``centroid`` (m), ``dead`` and ``live``
+            with the ``force`` (N) and ``moment`` (N·m) of the loads; ``interfaces``: ``between``
+            (indices of blocks), ``kind``, axes ``t1``, ``t2``, ``n``, ``points`` (m), ``area`` (m²),
+            ``friction``; ``members``; ``findings``.
+
+        Raises
+        ------
+        InputError
+            The scene cannot be resolved: a block has no density, no block is a support, ...
+
+        Examples
+        --------
+        >>> import voussoir
+        >>> scene = voussoir.Scene(friction=0.6, density=1000).box("ground", (2, 2, 1), support=True)
+        >>> model = scene.box("block", (1, 1, 1), at=(0, 0, 1)).inspect()
+        >>> [block["id"] for block in model["blocks"]], model["interfaces"][0]["area"]
+        (['ground', 'block'], 1.0)
+        """
         return self._core.inspect()
 
     def __repr__(self) -> str:
@@ -422,16 +268,31 @@ def load(
     Parameters
     ----------
     scene : path, mapping or Scene
-        The file, or what stands in one; arrays of numpy may stand for lists. A scene is copied.
+        The file, or what stands in one; numpy arrays may stand for lists. A scene is copied.
     folder : path, optional
         Where meshes are looked for that the scene names: the folder of the file, or the current one.
     allow_outside : bool
         Whether paths of meshes may leave that folder.
 
+    Returns
+    -------
+    Scene
+
     Raises
     ------
     InputError
-        With the place and the remedy.
+        The scene cannot be used as it is; with the place and the remedy.
+
+    References
+    ----------
+    ``docs/guide/scenes.md``.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> ball = {"id": "ball", "shape": {"sphere": {"radius": 0.1}}, "density": 1100}
+    >>> voussoir.load({"format": "voussoir-scene/1", "blocks": [ball]})
+    <voussoir.Scene 1 block>
     """
     if isinstance(scene, Scene):
         return scene.copy()
@@ -444,7 +305,7 @@ def load(
         return Scene._of(_core.Scene.parse(path, file.read(), os.fspath(folder), allow_outside))
 
 
-def load_foreign(
+def import_file(
     *paths: str | os.PathLike[str],
     supports: Iterable[str] = (),
     support_below: float | None = None,
@@ -452,15 +313,17 @@ def load_foreign(
     friction: Friction | None = None,
     density: float | None = None,
     scale: float = 1.0,
-    up: Literal["x", "y", "z", "-x", "-y", "-z"] = "z",
+    up: Up = "z",
     gap: float | None = None,
     angle_deg: float | None = None,
     stored_interfaces: bool = True,
 ) -> Scene:
-    """Make a scene from files of other programs: COMPAS JSON, OBJ, PLY, STL.
+    """Make a scene of files of other programs: COMPAS JSON, OBJ, PLY, STL.
 
     Parameters
     ----------
+    *paths : paths
+        One file, or several with some blocks each.
     supports : ids of blocks
         Held in place, beside those that the file names.
     support_below : float, optional
@@ -468,17 +331,42 @@ def load_foreign(
     support_files : paths
         All their blocks are held.
     friction : float or "infinite", optional
-        Of every joint.
+        Coefficient of friction of every joint.
     density : float, optional
         kg/m³, in place of what the file says.
     scale : float
         Multiplies coordinates: 0.001 for a file in millimetres.
-    up : str
+    up : {"x", "y", "z", "-x", "-y", "-z"}
         The axis of the file that points up.
     gap, angle_deg : float, optional
-        When faces touch, as in :meth:`Scene.contact`.
+        When faces touch, as in :class:`ContactTolerances`.
     stored_interfaces : bool
         Keep those of the file in place of contacts that are detected.
+
+    Returns
+    -------
+    Scene
+
+    Raises
+    ------
+    InputError
+        A file that cannot be read, or an option that no file can have.
+
+    References
+    ----------
+    ``docs/guide/vault.md``.
+
+    Examples
+    --------
+    A tetrahedron in millimetres:
+
+    >>> import pathlib, tempfile, voussoir
+    >>> path = pathlib.Path(tempfile.mkdtemp()) / "stone.obj"
+    >>> corners = "v 0 0 0\\nv 600 0 0\\nv 0 600 0\\nv 0 0 600\\n"
+    >>> _ = path.write_text("o stone\\n" + corners + "f 1 3 2\\nf 1 2 4\\nf 2 3 4\\nf 3 1 4\\n")
+    >>> scene = voussoir.import_file(path, scale=0.001, density=2400, friction=0.6)
+    >>> scene.to_dict()["blocks"][0]["shape"]["polyhedron"]["vertices"][1]
+    [0.6, 0.0, 0.0]
     """
     scene, _ = _core.import_scene(
         [os.fspath(path) for path in paths],
@@ -499,5 +387,3 @@ def load_foreign(
 def core(scene: SceneLike) -> _core.Scene:
     """What questions are asked of."""
     return scene._core if isinstance(scene, Scene) else load(scene)._core
-
-
