@@ -351,6 +351,7 @@ fn load() -> impl Strategy<Value = Load> {
     )
         .prop_map(|(block, force, moment, at, [arm, massless], acceleration, weight)| Load {
             id: None,
+            action: None,
             road: None,
             block,
             force,
