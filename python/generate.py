@@ -103,7 +103,7 @@ RENAMED = {
 }
 # Beside what answers hold themselves.
 ALSO = ["CriticalResult", "CriticalValue", "PathResult", "StagesResult", "ThrustResult", "Simulation"]
-ALSO += ["MechanismWords", "MemberLine", "Doubt", "Why", "Required"]
+ALSO += ["MechanismWords", "MemberLine", "Doubt", "Why", "Required", "Sensitivity"]
 BASES = {"LoadFactor": "Number", "Bound": "Number"}
 # Examples of those that the package shows: statements after those of the scene, and what they print.
 TABLE = """>>> import voussoir

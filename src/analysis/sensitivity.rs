@@ -35,7 +35,7 @@ const FROM_ZERO: f64 = 1.0;
 
 /// Numbers of an answer that have to be asked again, those that matter most first.
 pub(super) fn open(found: &Sensitivity) -> Vec<&str> {
-    let open = found.numbers.iter().filter(|d| d.from == Origin::NotAsked);
+    let open = found.numbers.iter().filter(|d| d.origin == Origin::NotAsked);
     open.take(AGAIN).map(|d| d.pointer.as_str()).collect()
 }
 

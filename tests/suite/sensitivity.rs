@@ -63,7 +63,7 @@ fn a_block_that_slides_follows_its_friction() {
     is(&file, DENSITY, 0.5);
     is(&file, FORCE, -0.5);
     is(&file, HEIGHT, 0.0);
-    assert!(file.sensitivity.as_ref().unwrap().numbers.iter().all(|d| d.from == Origin::Proof));
+    assert!(file.sensitivity.as_ref().unwrap().numbers.iter().all(|d| d.origin == Origin::Proof));
     // What matters most comes first, by 1 % of it.
     let first = &file.sensitivity.as_ref().unwrap().numbers[0];
     assert!((first.per_percent.unwrap().abs() - 0.005).abs() < 1e-9, "{first:?}");
@@ -138,7 +138,7 @@ fn a_bend_has_two_sides() {
     let scene = pushed(0.5, 1.0, 1.0);
     let file = asked(&scene, limit());
     let d = of(&file, FRICTION);
-    assert_eq!(d.from, Origin::AskedAgain);
+    assert_eq!(d.origin, Origin::AskedAgain);
     let (left, right) = (d.left.unwrap(), d.right.unwrap());
     assert!((left - 1.0).abs() < 1e-4 && right.abs() < 1e-4, "{d:?}");
     let d = of(&file, HEIGHT);
@@ -222,7 +222,7 @@ fn dry_friction_that_slides_is_asked_again() {
     let value = answer.load_factor.value.unwrap();
     // λ = √2 μ.
     let d = of(&file, FRICTION);
-    assert_eq!(d.from, Origin::AskedAgain);
+    assert_eq!(d.origin, Origin::AskedAgain);
     for side in [d.left, d.right] {
         assert!((side.unwrap() - value / 0.5).abs() < 1e-2 * value, "{d:?}");
     }

@@ -34,7 +34,7 @@ pub(super) fn derive(
 ) -> Result<(Sensitivity, Findings), InputError> {
     let (found, noise) = sensitivity(scene, model, target, evidence)?;
     let mut f = Findings::default();
-    let count = |origin| found.numbers.iter().filter(|d| d.from == origin).count();
+    let count = |origin| found.numbers.iter().filter(|d| d.origin == origin).count();
     f.holds.push(format!(
         "derivatives follow from the forces and the mechanism: {} of {}",
         count(Origin::Proof),
@@ -42,7 +42,7 @@ pub(super) fn derive(
     ));
     let all = found.numbers.iter().zip(noise);
     let sided: Vec<(&Derivative, f64)> =
-        all.filter(|(d, _)| d.from == Origin::AskedAgain).collect();
+        all.filter(|(d, _)| d.origin == Origin::AskedAgain).collect();
     if !sided.is_empty() {
         f.computed = true;
         let text = format!("derivatives on both sides of {} numbers", sided.len());
@@ -89,7 +89,7 @@ fn sensitivity(
     let one = |number: Number| {
         let known = faces.as_ref().and_then(|f| f.slope(&varied, &number));
         let again = sided.iter().find(|s| s.pointer == number.pointer);
-        let (left, right, from) = match (known, again) {
+        let (left, right, origin) = match (known, again) {
             (Some((slope, true)), _) if target.dry.is_none() => {
                 (Some(slope * by), Some(slope * by), Origin::Proof)
             }
@@ -112,7 +112,7 @@ fn sensitivity(
             unit: number.unit,
             left,
             right,
-            from,
+            origin,
         };
         (derivative, told(size), noise * (target.bound * by).abs() / scale)
     };

@@ -50,7 +50,7 @@ pub struct Derivative {
     /// block), the greater of both sides in size.
     pub per_percent: Option<f64>,
     /// How it is known.
-    pub from: Origin,
+    pub origin: Origin,
 }
 
 impl Derivative {

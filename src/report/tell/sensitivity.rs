@@ -48,7 +48,7 @@ pub(crate) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
 
 /// What is to be known about the numbers.
 fn notes(s: &Sensitivity) -> Vec<String> {
-    let has = |origin| s.numbers.iter().any(|d| d.from == origin);
+    let has = |origin| s.numbers.iter().any(|d| d.origin == origin);
     let mut notes = Vec::new();
     if has(Origin::AskedAgain) {
         notes.push("computed: asked again with the number changed, not proved".to_string());
@@ -65,13 +65,13 @@ fn notes(s: &Sensitivity) -> Vec<String> {
 fn cells(d: &Derivative, unit: &str) -> [String; 5] {
     let value = format!("{} {}", plain(d.value), d.unit).trim_end().to_string();
     let told = |v: Option<f64>| v.map_or("–".to_string(), |v| format!("{}{unit}", plain(v)));
-    let slopes = match (d.one(), d.from) {
+    let slopes = match (d.one(), d.origin) {
         (_, Origin::NotAsked) => String::new(),
         (Some(one), _) => told(Some(one)),
         (None, _) => format!("{} | {}", told(d.left), told(d.right)),
     };
     let percent = d.per_percent.map_or(String::new(), |v| format!("{}{unit}", plain(v)));
-    let from = match d.from {
+    let from = match d.origin {
         Origin::Proof => "",
         Origin::AskedAgain => "computed",
         Origin::NotAsked => "open",

@@ -183,7 +183,7 @@ fn held(scene: &Scene, own: &mut Sloped) -> Result<(), InputError> {
             "m" => 1.0,
             _ => d.value.abs(),
         };
-        match d.from {
+        match d.origin {
             Origin::Proof => own.one += 1,
             Origin::AskedAgain => own.again += 1,
             Origin::NotAsked => {
@@ -237,7 +237,7 @@ fn compare(own: &mut Sloped, d: &Derivative, [left, right]: [f64; 2], nothing: f
     if error > if bend { ONE } else { SAME } {
         own.wrong.push(format!(
             "{}: told {:?} and {:?} ({:?}), differences {left} and {right}",
-            d.pointer, d.left, d.right, d.from
+            d.pointer, d.left, d.right, d.origin
         ));
     }
 }
