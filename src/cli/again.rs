@@ -4,7 +4,7 @@ use super::question::quoted;
 use clap::{Arg, ArgMatches, Command, parser::ValueSource};
 
 /// Options that say where an answer goes and how it looks, not what it is.
-const SHOWN: [&str; 20] = [
+const SHOWN: [&str; 21] = [
     "json",
     "save",
     "report",
@@ -20,6 +20,7 @@ const SHOWN: [&str; 20] = [
     "quiet",
     "view",
     "hide",
+    "dimensions",
     "color",
     "frames",
     "max_memory",

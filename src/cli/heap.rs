@@ -65,7 +65,7 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
     }
     let format = GrainFormat::of(args.grains.as_deref());
     let pictures = Pictures::open(&args.pictures, None)?;
-    pictures.hides_something(args.common.report.is_some())?;
+    pictures.are_drawn(args.common.report.is_some())?;
     let report = args.common.report.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
     // The seed goes before the ending.
     let seeded = |p: &std::path::Path, k: u64, ending: &str| {
@@ -153,7 +153,7 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
         if let Some(view) = &mut view {
             let assembly = prepare(&heap.scene)?.assembly;
             view.slope = heap.slope.and_then(|_| profile(&protocol, &assembly)).map(Into::into);
-            view.hides_supports = pictures.hides_supports();
+            pictures.set(view);
         }
         Ok((HeapResult::new(&heap, result), view))
     };

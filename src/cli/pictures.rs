@@ -3,6 +3,7 @@
 use super::{args, output::Sink};
 use anyhow::{Context, bail};
 use std::{
+    borrow::Cow,
     fs,
     io::ErrorKind,
     path::{Path, PathBuf},
@@ -25,6 +26,8 @@ pub struct Pictures {
     obj: Option<Sink>,
     /// Supports are left out.
     hides: bool,
+    /// Drawings have dimensions.
+    measures: bool,
     /// Where the files of single moments go.
     frames: Option<PathBuf>,
     /// Joints and blocks.
@@ -100,6 +103,7 @@ impl Pictures {
             gltf: gltf.transpose()?,
             obj: open(args.obj.as_deref())?,
             hides: args.hide.is_some(),
+            measures: args.dimensions,
             frames: None,
             csv: tables,
             members: table.map(|path| beside(path, "members")),
@@ -122,15 +126,18 @@ impl Pictures {
         self.gltf.is_some() || self.obj.is_some()
     }
 
-    /// Whether supports are left out.
-    pub fn hides_supports(&self) -> bool {
-        self.hides
+    /// The view with what was asked of all pictures.
+    pub fn set(&self, view: &mut View) {
+        (view.hides_supports, view.is_measured) = (self.hides, self.measures);
     }
 
-    /// Refuses to leave supports out of nothing.
-    pub fn hides_something(&self, page: bool) -> anyhow::Result<()> {
+    /// Refuses what changes no picture that is made.
+    pub fn are_drawn(&self, page: bool) -> anyhow::Result<()> {
         if self.hides && !(page || self.svg.is_some() || self.is_solid()) {
             bail!("--hide requires --svg, --gltf, --obj or --report");
+        }
+        if self.measures && !(page || self.svg.is_some()) {
+            bail!("--dimensions requires --svg or --report");
         }
         Ok(())
     }
@@ -146,10 +153,17 @@ impl Pictures {
         self.write_still(view)
     }
 
+    fn seen<'a>(&self, view: &'a View) -> Cow<'a, View> {
+        let mut view = Cow::Borrowed(view);
+        if self.hides || self.measures {
+            self.set(view.to_mut());
+        }
+        view
+    }
+
     /// Writes the model that moves.
     pub fn write_model(&self, view: &View) -> anyhow::Result<()> {
-        let hidden = self.hides.then(|| View { hides_supports: true, ..view.clone() });
-        let view = hidden.as_ref().unwrap_or(view);
+        let view = &self.seen(view);
         match &self.gltf {
             Some((sink, true)) => sink.write_bytes(&gltf::binary(view)?)?,
             Some((sink, false)) => sink.write(&gltf::text(view)?)?,
@@ -160,8 +174,7 @@ impl Pictures {
 
     /// Writes all the others.
     pub fn write_still(&self, view: &View) -> anyhow::Result<()> {
-        let hidden = self.hides.then(|| View { hides_supports: true, ..view.clone() });
-        let view = hidden.as_ref().unwrap_or(view);
+        let view = &self.seen(view);
         if let Some(sink) = &self.obj {
             sink.write(&obj::obj(view))?;
         }

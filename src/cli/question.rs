@@ -163,7 +163,7 @@ impl<'a> Session<'a> {
             }
         }
         let pictures = open()?;
-        pictures.hides_something(self.report.is_some())?;
+        pictures.are_drawn(self.report.is_some())?;
         if pictures.printed() && (self.common.json || report::is_printed(&self.common.report)) {
             bail!(
                 "only one of --svg, --vtk, --gltf, --obj, --report and --json can go to standard output"
@@ -318,7 +318,7 @@ impl<'a> Session<'a> {
                 Depicted::Other(view) => (*view, None),
                 Depicted::Drawn(view) => (View::new(&self.model, &file, Vec::new())?, Some(*view)),
             };
-            view.hides_supports = self.pictures.hides_supports();
+            self.pictures.set(&mut view);
             if let Some(report) = &self.report {
                 let text = text::render(&file, asked, report::EVERYTHING, report::layout(layout));
                 charts.extend(tell::charts(&file).into_iter().chain(tell::attempts(&file)));

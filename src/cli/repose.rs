@@ -97,12 +97,11 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
     }
     let layout = terminal.layout(&args.common.scene);
     // The round with the answer: grains that fell earlier are gone.
-    let seen = session
+    let mut seen = session
         .is_filmed()
         .then(|| anyhow::Ok(View::new(&prepare(&proof.scene.input)?, &proof, Vec::new())?))
         .transpose()?;
-    let seen =
-        seen.map(|view| View { hides_supports: session.pictures().hides_supports(), ..view });
+    seen.iter_mut().for_each(|view| session.pictures().set(view));
     if let Some(view) = &seen {
         session.pictures().write(view)?;
     }

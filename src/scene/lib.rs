@@ -23,6 +23,7 @@ mod pattern;
 pub mod preset;
 mod protocol;
 mod read;
+mod record;
 mod require;
 mod schema;
 pub mod site;
@@ -50,6 +51,7 @@ pub use pattern::fits;
 pub use protocol::{FloorKind, GrainKind, Protocol, ProtocolKind};
 pub use read::{read_as, text};
 pub use read::{read_bytes, read_file, read_str};
+pub use record::Record;
 pub use require::Requirements;
 pub use schema::schema;
 pub use site::Site;
@@ -88,6 +90,9 @@ pub struct Scene {
     /// Where the geometry and the values come from.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub source: String,
+    /// Project and people, for the first page of the record of an assessment.
+    #[serde(default, skip_serializing_if = "Record::is_empty")]
+    pub record: Record,
     /// Gravity, m/s².
     #[serde(default = "standard_gravity")]
     pub gravity: [f64; 3],
@@ -150,6 +155,7 @@ impl Default for Scene {
             format: SceneFormat::V1,
             name: String::new(),
             source: String::new(),
+            record: Record::default(),
             gravity: standard_gravity(),
             materials: BTreeMap::new(),
             joints: Joints::default(),

@@ -12,6 +12,12 @@ fn page(verb: &str, scene: &Value) -> String {
     report(&[verb, file.to_str().unwrap()], &desk.path().join("page.html"))
 }
 
+/// The first page.
+fn cover(page: &str) -> &str {
+    let cover = page.split("<section class=\"cover\"").nth(1).expect("a first page");
+    cover.split("</section>").next().unwrap()
+}
+
 /// The cells of the rows of the table whose first column has this name.
 fn table(page: &str, column: &str) -> Vec<Vec<String>> {
     let record = page.split("class=\"record\"").nth(1).expect("a record");
@@ -128,8 +134,8 @@ fn a_record_says_of_what_it_was_asked() {
         assert!(page.contains(words), "{words}");
     }
     // Drawn without a script, and only where there is a record.
-    let record = page.split("class=\"record\"").nth(1).unwrap();
-    assert!(record.contains("class=\"sheet\"") && record.contains("<title>pier</title>"));
+    let cover = cover(&page);
+    assert!(cover.contains("class=\"sheet\"") && cover.contains("<title>pier</title>"));
 }
 
 /// The meaning of λ stands beside it, and what the live loads are.
@@ -172,7 +178,7 @@ fn a_film_is_drawn_with_what_it_goes_along() {
     let desk = tempfile::tempdir().unwrap();
     let record = |arguments: &[&str]| {
         let page = report(arguments, &desk.path().join("page.html"));
-        let record = page.split("class=\"record\"").nth(1).unwrap().to_string();
+        let record = cover(&page).to_string();
         (page, record)
     };
     let (_, settled) =
@@ -199,4 +205,172 @@ fn stiffness_is_listed_where_there_is_one() {
     assert_eq!(laws[8..], ["1 GPa/m", "400 MPa/m"]);
     let asked = page.split("class=\"rows asked\"").nth(1).unwrap();
     assert!(asked.contains("λ = 19.620000 along the path, the proved bound"));
+}
+
+/// The text of a piece of a page, without drawings and markup.
+fn text(html: &str) -> String {
+    let (before, rest) = html.split_once("<svg").unwrap_or((html, ""));
+    let after = rest.split_once("</svg>").map_or("", |r| r.1);
+    let mut inside = false;
+    let plain = |c: char| {
+        inside = (inside || c == '<') && c != '>';
+        if inside || c == '>' { ' ' } else { c }
+    };
+    format!("{before}{after}").chars().map(plain).collect()
+}
+
+/// The numbers in a text, with the digits after the point.
+fn numbers(text: &str) -> Vec<(f64, usize)> {
+    text.split(|c: char| !c.is_ascii_digit() && c != '.')
+        .map(|word| word.trim_matches('.'))
+        .filter_map(|word| {
+            let digits = word.split_once('.').map_or(0, |p| p.1.len());
+            Some((word.parse().ok()?, digits))
+        })
+        .collect()
+}
+
+/// All numbers of a result, also those in its texts.
+fn all_numbers(value: &Value, list: &mut Vec<f64>) {
+    match value {
+        Value::Number(n) => list.push(n.as_f64().unwrap().abs()),
+        Value::String(text) => list.extend(numbers(text).iter().map(|n| n.0)),
+        Value::Array(values) => values.iter().for_each(|v| all_numbers(v, list)),
+        Value::Object(values) => values.values().for_each(|v| all_numbers(v, list)),
+        Value::Null | Value::Bool(_) => {}
+    }
+}
+
+/// A bridge under a train, with all that the first page says in the scene, and its result.
+fn bridge(record: Value) -> (String, Value) {
+    let desk = tempfile::tempdir().unwrap();
+    let place = concat!(env!("CARGO_MANIFEST_DIR"), "/structures/bridge-tandem.json");
+    let mut scene: Value = serde_json::from_str(&fs::read_to_string(place).unwrap()).unwrap();
+    scene["templates"][0]["bridge"]["fill"]["dispersal"] = json!(0.5);
+    scene["joints"]["default"]["compression"] = json!(5e6);
+    scene["require"] = json!({ "load_factor": 1.25 });
+    scene["record"] = record;
+    let [file, saved] = ["scene.json", "result.json"].map(|name| desk.path().join(name));
+    fs::write(&file, scene.to_string()).unwrap();
+    let asked = ["limit", file.to_str().unwrap(), "--moving", "--law", "associative", "--save"];
+    let asked: Vec<&str> = asked.into_iter().chain([saved.to_str().unwrap()]).collect();
+    let page = report(&asked, &desk.path().join("page.html"));
+    (page, serde_json::from_str(&fs::read_to_string(saved).unwrap()).unwrap())
+}
+
+/// Nothing on the first page was made up: project and people, source, numbers come from the scene and
+/// from the answer.
+#[test]
+fn every_number_of_the_first_page_is_in_the_result() {
+    let people = json!({
+        "project": "Prestwood 1986", "author": "A. Mason", "checker": "C. Check", "revision": "B",
+        "date": "2026-11-30"
+    });
+    let (page, result) = bridge(people.clone());
+    let head = page.split("<header>").nth(1).unwrap().split("</header>").next().unwrap();
+    let first = text(head) + &text(cover(&page));
+    for said in people.as_object().unwrap().values() {
+        assert!(first.contains(said.as_str().unwrap()), "{said}");
+    }
+    let source = result["scene"]["source"].as_str().unwrap();
+    assert!(!source.is_empty() && first.contains(source), "{first}");
+    for words in
+        ["requirement", "at least 1.25: met", "μ = 0.6", "compression 5 MPa", "Not in the model"]
+    {
+        assert!(first.contains(words), "{words}: {first}");
+    }
+    let mut known = Vec::new();
+    all_numbers(&result, &mut known);
+    let said = numbers(&first);
+    assert!(said.len() > 20);
+    for (number, digits) in said {
+        // Rounded to the digits that are shown, up or down, in units with a prefix.
+        let near =
+            |v: f64| (v - number).abs() <= 10f64.powi(-(digits as i32)).min(1e-3 * v.abs() + 1e-12);
+        assert!(
+            known.iter().any(|v| [1.0, 1e-3, 1e-6].iter().any(|by| near(v * by))),
+            "{number} is not in the result: {first}"
+        );
+    }
+}
+
+/// What the model leaves out is said in the words of the guide.
+#[test]
+fn the_limits_are_those_of_the_guide() {
+    let (page, _) = bridge(json!({}));
+    let guide =
+        fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/guide/limits.md")).unwrap();
+    let list = cover(&page).split("<ul>").nth(1).unwrap().split("</ul>").next().unwrap();
+    let lines: Vec<&str> =
+        list.split("<li>").skip(1).map(|l| l.trim_end_matches("</li>")).collect();
+    assert!(lines.len() >= 6 && list.contains("Spandrel walls and skew are not modelled"));
+    for part in lines.iter().flat_map(|line| line.split(": ")) {
+        assert!(guide.contains(part), "{part}");
+    }
+}
+
+/// Without the key there are blank lines to fill in and to sign.
+#[test]
+fn a_record_without_names_has_blanks() {
+    let page = page("assess", &pressed());
+    let cover = cover(&page);
+    for name in ["project", "revision", "date", "author", "checker"] {
+        assert!(cover.contains(&format!("<dt>{name}</dt><dd></dd>")), "{name}");
+    }
+    assert!(cover.contains("<dt>structure</dt><dd>Pressed</dd>"));
+    assert!(cover.contains("not given in the scene"));
+    for role in ["author", "checker"] {
+        let row = format!("<th scope=\"row\">{role}</th><td></td><td></td><td></td>");
+        assert!(cover.contains(&row), "{role}");
+    }
+}
+
+/// The wheels on the drawing stand where the axles of the answer do, on the road, which is as long on
+/// either side of the middle of the bridge.
+#[test]
+fn wheels_stand_at_the_governing_position() {
+    let (page, result) = bridge(json!({}));
+    let axles: Vec<f64> = result["answer"]["moving"]["axles"]
+        .as_array()
+        .unwrap_or_else(|| panic!("{}", result["answer"]))
+        .iter()
+        .map(|a| a["x"].as_f64().unwrap())
+        .collect();
+    let drawn = cover(&page);
+    let attribute = |of: &str, name: &str| -> f64 {
+        let value = of.split(&format!(" {name}=\"")).nth(1).unwrap().split('"').next().unwrap();
+        value.parse().unwrap()
+    };
+    let wheels: Vec<[f64; 3]> = drawn
+        .split("<circle class=\"wheel\"")
+        .skip(1)
+        .filter(|c| {
+            c.starts_with(|_| true) && c.split("</circle>").next().unwrap().contains("<title>axle")
+        })
+        .map(|c| ["cx", "cy", "r"].map(|name| attribute(c, name)))
+        .collect();
+    // In both panels.
+    assert!(axles.len() == 2 && wheels.len() == 4, "{axles:?} {wheels:?}");
+    let road = drawn.split("<path class=\"road\" d=\"M").nth(1).unwrap().split('"').next().unwrap();
+    let ends: Vec<f64> = road.split(['L', ' ']).map(|v| v.parse().unwrap()).collect();
+    let [middle, scale] =
+        [0.5 * (ends[0] + ends[2]), (wheels[1][0] - wheels[0][0]) / (axles[1] - axles[0])];
+    assert!(scale > 10.0, "{scale}");
+    for (x, [cx, cy, r]) in axles.iter().zip(&wheels) {
+        assert!((cx - middle - scale * x).abs() < 0.05, "{x}: {cx}, {middle}, {scale}");
+        assert!((cy + r - ends[1]).abs() < 0.06, "not on the road");
+    }
+}
+
+/// Soil is a line and a table of its own, not one arrow a chord; arrows stay inside the drawing.
+#[test]
+fn soil_is_a_band() {
+    let (page, result) = bridge(json!({}));
+    let soil = result["answer"]["counts"]["members"].as_u64().unwrap() as usize;
+    assert!(page.contains(&format!("{soil} soil members: ")));
+    assert_eq!(table(&page, "soil").len(), soil);
+    let drawn = cover(&page);
+    assert!(drawn.contains("class=\"fill\"") && !drawn.contains("class=\"push\""));
+    assert_eq!(table(&page, "reaction of").len(), 2);
+    assert!(table(&page, "position, m").len() > 60);
 }

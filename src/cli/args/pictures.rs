@@ -46,6 +46,11 @@ pub struct Pictures {
     /// Leave supports out of --svg, --gltf, --obj and --report.
     #[arg(long, value_name = "WHAT", value_enum, help_heading = "Pictures")]
     pub hide: Option<Hide>,
+    /// Draw dimensions in --svg and --report: width and height; span, rise and thickness of bridges.
+    ///
+    /// They are drawn in metres, where the structure is seen from the side.
+    #[arg(long, help_heading = "Pictures")]
+    pub dimensions: bool,
 }
 
 /// What pictures can leave out.

@@ -10,7 +10,10 @@ use crate::cli::{
 use voussoir::{
     deadline::Deadline,
     error::Finding,
-    report::{self, Inspection, text, view::View},
+    report::{
+        self, Inspection, text,
+        view::{View, roads},
+    },
     scene::{Scene, Source},
 };
 
@@ -25,7 +28,7 @@ pub fn run(
     model.assembly.said = said;
     let (mistakes, notes): (Vec<Finding>, Vec<Finding>) =
         model.findings().cloned().partition(|f| f.code.is_mistake());
-    pictures.write(&View::bare(&model))?;
+    pictures.write(&View { roads: roads(scene, &model, None), ..View::bare(&model) })?;
     if args.json {
         terminal::print(&report::json::pretty(&Inspection::new(&model).with_train(scene))?)?;
     } else if !pictures.printed() {

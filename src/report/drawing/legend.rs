@@ -23,6 +23,8 @@ pub enum Glyph {
     Dot(&'static str),
     /// A filled box of a class.
     Swatch(&'static str),
+    /// A wheel.
+    Wheel,
     /// A dashed line.
     Ghost,
     /// An arrow of a class in a direction.
@@ -94,6 +96,7 @@ fn sign(sheet: &mut Sheet, glyph: Glyph, x: f64, y: f64) {
             SIGN - 4.0,
             4.0 - SIGN
         )),
+        Glyph::Wheel => sheet.put(format_args!("<circle class=\"wheel\" cx=\"{middle:.1}\" cy=\"{y:.1}\" r=\"5\"/>")),
         Glyph::Ghost => sheet.put(format_args!("<path class=\"ghost\" d=\"M{x:.1} {y:.1}h{SIGN}\"/>")),
         Glyph::Arrow(class, [dx, dy]) => {
             let half = 0.45 * SIGN;

@@ -6,6 +6,7 @@ use super::{
     choice::Movement,
     legend::{Glyph, Legend},
     projection::Projection,
+    road,
     sheet::Sheet,
 };
 use crate::view::{JointView, View, ViewLoad, ViewState};
@@ -15,6 +16,8 @@ use std::fmt::Write;
 
 /// Loads on more blocks than this are told once in the legend.
 const LOADED: usize = 12;
+/// Length of an arrow where the fill is thin.
+const SHORT: f64 = 9.0;
 /// Length of the arrow of the greatest load, and of the least one, units of the sheet.
 const ARROW: [f64; 2] = [46.0, 16.0];
 
@@ -83,10 +86,12 @@ pub fn loads(
             continue;
         }
         for load in &list {
-            let [x, y] = paper.at(&load.at);
             let length = ARROW[1] + (ARROW[0] - ARROW[1]) * load.force.norm() / greatest;
-            let [dx, dy] = paper.direction(&(load.force / load.force.norm()));
-            sheet.arrow("load", [x - length * dx, y - length * dy], [x, y]);
+            // What the fill spreads comes out of it.
+            let length = road::depth(view, paper, &load.at)
+                .map_or(length, |depth| length.min(depth.max(SHORT)));
+            let [from, to] = paper.arrow(&load.at, &load.force.normalize(), length);
+            sheet.arrow("load", from, to);
         }
         legend.add(Glyph::Arrow("load", [1.0, 0.0]), word);
     }

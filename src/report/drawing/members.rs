@@ -3,6 +3,7 @@
 use super::{
     legend::{Glyph, Legend},
     projection::Projection,
+    road,
     sheet::Sheet,
 };
 use crate::view::{View, ViewMember};
@@ -20,8 +21,9 @@ const ARROW: f64 = 30.0;
 
 /// Draws them.
 pub fn draw(sheet: &mut Sheet, view: &View, paper: &Projection, legend: &mut Legend) {
+    let list = || view.members.iter().filter(|m| !road::covers(view, paper, m));
     let greatest = view.members.iter().filter_map(|m| m.force).map(f64::abs).fold(0.0, f64::max);
-    for member in &view.members {
+    for member in list() {
         let share = |force: f64| if greatest > 0.0 { force.abs() / greatest } else { 0.0 };
         let slack = member.slack;
         let width = THICKNESS[0]
@@ -49,7 +51,7 @@ pub fn draw(sheet: &mut Sheet, view: &View, paper: &Projection, legend: &mut Leg
             }
         }
     }
-    if !view.members.is_empty() {
+    if list().next().is_some() {
         let words = "tie, strut, soil or other member (width: force; dashed: slack)";
         legend.add(Glyph::Line("member"), words);
     }
@@ -62,7 +64,7 @@ fn arrow(
     direction: &Vector3<f64>,
     member: &ViewMember,
 ) {
-    let ([x, y], [dx, dy]) = (paper.at(at), paper.direction(direction));
     let class = if member.slack { "push slack" } else { "push" };
-    sheet.arrow(class, [x - ARROW * dx, y - ARROW * dy], [x, y]);
+    let [from, to] = paper.arrow(at, direction, ARROW);
+    sheet.arrow(class, from, to);
 }

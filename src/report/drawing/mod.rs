@@ -10,6 +10,7 @@ mod aspect;
 mod blocks;
 mod body;
 mod choice;
+mod dimensions;
 mod forces;
 mod hull;
 mod legend;
@@ -18,6 +19,7 @@ mod members;
 mod order;
 mod pressure;
 mod projection;
+mod road;
 mod sheet;
 mod sizes;
 mod slope;
@@ -37,6 +39,9 @@ use sheet::Sheet;
 /// Greatest height of a panel.
 const TALL: f64 = 900.0;
 
+/// Height of all panels of a drawing on a page that says more.
+const LOW: f64 = 380.0;
+
 /// Panels of structures flatter than this stand below each other.
 const FLAT: f64 = 0.6;
 
@@ -48,16 +53,22 @@ pub fn plane(view: &View) -> Option<Vector3<f64>> {
 
 /// Draws an answer.
 pub fn svg(view: &View, aspect: Aspect) -> String {
-    draw(view, aspect, "", |style| style.to_string())
+    draw(view, aspect, "", None, |style| style.to_string())
 }
 
 /// Draws an answer for a place inside a page that is printed: on white paper, and what its style
-/// says holds for it alone.
+/// says holds for it alone; low enough for a page that says more.
 pub fn printed(view: &View, aspect: Aspect) -> String {
-    draw(view, aspect, " class=\"sheet\"", |style| sheet::scoped(style, ".sheet"))
+    draw(view, aspect, " class=\"sheet\"", Some(LOW), |style| sheet::scoped(style, ".sheet"))
 }
 
-fn draw(view: &View, aspect: Aspect, attributes: &str, styled: impl Fn(&str) -> String) -> String {
+fn draw(
+    view: &View,
+    aspect: Aspect,
+    attributes: &str,
+    most: Option<f64>,
+    styled: impl Fn(&str) -> String,
+) -> String {
     let choice = Choice::of(view);
     let still = body::still(view);
     let moved = choice.movement.as_ref().map(|m| (m, m.bodies(view)));
@@ -65,9 +76,18 @@ fn draw(view: &View, aspect: Aspect, attributes: &str, styled: impl Fn(&str) -> 
     let mut paper =
         Projection::new(view, axes, &still, moved.as_ref().map(|(_, bodies)| &bodies[..]));
     let forces = !choice.states.is_empty() || moved.is_none();
-    let beside = forces && moved.is_some() && paper.aspect() > FLAT;
-    let columns = if beside { 2.0 } else { 1.0 };
-    paper.fit((WIDTH - MARGIN * (columns + 1.0)) / columns, TALL);
+    let both = forces && moved.is_some();
+    let width = |columns: f64| (WIDTH - MARGIN * (columns + 1.0)) / columns;
+    let (beside, tall) = match most {
+        None => (both && paper.aspect() > FLAT, TALL),
+        // As they are larger.
+        Some(most) => {
+            let wide = |columns: f64, tall: f64| width(columns).min(tall / paper.aspect());
+            let beside = both && wide(2.0, most) >= wide(1.0, 0.5 * most);
+            (beside, if both && !beside { 0.5 * most } else { most })
+        }
+    };
+    paper.fit(width(if beside { 2.0 } else { 1.0 }), tall);
 
     let mut legend = Legend::default();
     let mut panels = Vec::new();
@@ -85,6 +105,8 @@ fn draw(view: &View, aspect: Aspect, attributes: &str, styled: impl Fn(&str) -> 
         (view.values.is_some(), sheet::VALUES),
         (paper.glass, sheet::GLASS),
         (view.slope.is_some(), slope::STYLE),
+        (!view.roads.is_empty(), road::STYLE),
+        (view.is_measured, dimensions::STYLE),
         (!view.pressures.is_empty(), pressure::STYLE),
     ] {
         if there {
@@ -136,6 +158,7 @@ fn statics(
 ) -> Panel {
     let mut sheet = Sheet::default();
     let order = order::back_to_front(view, still, paper);
+    road::draw(&mut sheet, view, paper, legend);
     blocks::draw(&mut sheet, view, paper, still, &order, &|i| view.class(i).0);
     for i in 0..view.bodies.len() {
         let (class, words) = view.class(i);
@@ -167,7 +190,9 @@ fn statics(
     }
     members::draw(&mut sheet, view, paper, legend);
     marks::loads(&mut sheet, view, paper, choice.states.first().copied(), legend);
+    road::wheels(&mut sheet, view, paper, legend);
     slope::draw(&mut sheet, view, paper, legend);
+    dimensions::draw(&mut sheet, view, paper, still);
     Panel { caption, content: sheet.text }
 }
 
@@ -181,6 +206,7 @@ fn kinematics(
 ) -> Panel {
     let mut sheet = Sheet::default();
     let order = order::back_to_front(view, moved, paper);
+    road::draw(&mut sheet, view, paper, legend);
     blocks::draw(&mut sheet, view, paper, moved, &order, &|i| {
         if movement.moves[i] { "moved" } else { "block" }
     });
@@ -189,6 +215,7 @@ fn kinematics(
         paper,
         still.iter().enumerate().filter(|(i, _)| movement.moves[*i]).map(|(_, b)| b),
     );
+    road::wheels(&mut sheet, view, paper, legend);
     legend.add(Glyph::Swatch("moved"), "moves");
     legend.add(Glyph::Ghost, "initial position");
     marks::mechanism(&mut sheet, view, paper, movement, legend);

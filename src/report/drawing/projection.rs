@@ -12,6 +12,10 @@ const RIM: f64 = 0.03;
 /// So much of the supports is shown at most, over the size of what is free: a ground slab as wide
 /// as one likes would leave no room for what stands on it.
 const GROUND: f64 = 0.12;
+/// So far outside what is free, over its size, loads are shown.
+const ARM: f64 = 0.3;
+/// Room for overall dimensions, left and below.
+const MEASURED: f64 = 0.07;
 /// So far from where it was, over its size, what fell is followed.
 const FALLEN: f64 = 0.6;
 
@@ -43,19 +47,22 @@ impl Frame {
     fn of<'a>(axes: &Axes, bodies: impl Iterator<Item = &'a Solid<'a>>) -> Self {
         let mut frame = Self::NONE;
         for body in bodies {
-            let mut add = |p: &Vector3<f64>, r: f64| {
-                for (k, axis) in [axes.right, axes.up].iter().enumerate() {
-                    let at = axis.dot(p);
-                    (frame.low[k], frame.high[k]) =
-                        (frame.low[k].min(at - r), frame.high[k].max(at + r));
-                }
-            };
             match &body.form {
-                Form::Surface { points, .. } => points.iter().for_each(|v| add(v, 0.0)),
-                Form::Sphere(radius) => add(&body.middle, *radius),
+                Form::Surface { points, .. } => {
+                    points.iter().for_each(|v| frame.add(axes, v, 0.0));
+                }
+                Form::Sphere(radius) => frame.add(axes, &body.middle, *radius),
             }
         }
         frame
+    }
+
+    /// Grown to hold a ball.
+    fn add(&mut self, axes: &Axes, p: &Vector3<f64>, r: f64) {
+        for (k, axis) in [axes.right, axes.up].iter().enumerate() {
+            let at = axis.dot(p);
+            (self.low[k], self.high[k]) = (self.low[k].min(at - r), self.high[k].max(at + r));
+        }
     }
 
     /// Grown to hold another frame, but by no more than `most` on each side.
@@ -85,8 +92,18 @@ impl Projection {
             frame = frame.grown(&Frame::of(&axes, moved.iter().filter(free)), FALLEN * size);
         }
         frame = frame.grown(&Frame::of(&axes, still.iter().filter(held)), GROUND * size);
+        let mut loads = Frame::NONE;
+        view.loads.iter().for_each(|l| loads.add(&axes, &l.at, 0.0));
+        frame = frame.grown(&loads, ARM * size);
+        if axes.level {
+            let roads = view.roads.iter().flat_map(|r| r.points(view.ground));
+            roads.for_each(|p| frame.add(&axes, &p, 0.0));
+        }
         for k in 0..2 {
             (frame.low[k], frame.high[k]) = (frame.low[k] - RIM * size, frame.high[k] + RIM * size);
+        }
+        if view.is_measured && axes.level {
+            frame.low = frame.low.map(|low| low - MEASURED * size);
         }
         if !(frame.size().is_finite() && frame.size() > 0.0) {
             frame = Frame { low: [0.0; 2], high: [1.0; 2] };
@@ -117,6 +134,20 @@ impl Projection {
             (self.axes.right.dot(p) - self.low[0]) * self.scale,
             (self.high[1] - self.axes.up.dot(p)) * self.scale,
         ]
+    }
+
+    /// Both ends of an arrow whose head is at a point: as long as said, or as there is room for; from
+    /// the point onwards where there is next to none.
+    pub fn arrow(&self, at: &Vector3<f64>, along: &Vector3<f64>, length: f64) -> [[f64; 2]; 2] {
+        /// Shorter is no arrow.
+        const LEAST: f64 = 12.0;
+        let (to, way, size) = (self.at(at), self.direction(along), self.size());
+        let room = (0..2)
+            .map(|k| if way[k] > 0.0 { to[k] / way[k] } else { (to[k] - size[k]) / way[k] })
+            .filter(|room| room.is_finite())
+            .fold(length, f64::min);
+        let ahead = |by: f64| [0, 1].map(|k| to[k] + by * way[k]);
+        if room < LEAST.min(length) { [to, ahead(length)] } else { [ahead(-room), to] }
     }
 
     /// Where a direction points on the sheet, its length kept.

@@ -6,7 +6,8 @@ use base::plain::markup;
 /// Rows about the solver and its work, which are folded together.
 const INTERNALS: [&str; 5] = ["reduced", "left out", "time", "work", "attempts"];
 /// Rows that a record repeats.
-const RECORDED: [&str; 2] = ["proof", "scene"];
+const RECORDED: [&str; 8] =
+    ["proof", "scene", "weak joints", "yield", "go slack", "members", "positions", "bridge"];
 /// The row of commands.
 const NEXT: &str = "next";
 /// Rows of more lines than this are folded.

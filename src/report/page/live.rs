@@ -79,6 +79,8 @@ fn nothing() -> View {
         course: Course::default(),
         values: None,
         slope: None,
+        roads: Vec::new(),
         hides_supports: false,
+        is_measured: false,
     }
 }

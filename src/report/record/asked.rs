@@ -1,13 +1,13 @@
 //! What was asked, and what the number of the answer means.
 
-use crate::tell::telling;
+use crate::tell::{required, telling};
 use base::number::{bracketed, count, ends, fixed, short};
 use check::{
     proof::{result::ResultFile, state::StateAnswer},
     terms::Law,
 };
 
-/// The question in words, its number with unit and meaning, and the law of sliding.
+/// The question in words, its number with unit and meaning, and what is required of it.
 pub(super) fn facts(file: &ResultFile) -> Vec<[String; 2]> {
     let [question, unit] = (telling(file).asked)(file);
     let mut list: Vec<[String; 2]> = vec![["question".into(), question.into()]];
@@ -17,8 +17,9 @@ pub(super) fn facts(file: &ResultFile) -> Vec<[String; 2]> {
     if !unit.is_empty() {
         list.push(["meaning".into(), unit.into()]);
     }
-    if let Some(law) = law(file) {
-        list.push(["sliding".into(), law.into()]);
+    if let Some(words) = required(file) {
+        let least = words.trim_start_matches("required ");
+        list.push(["requirement".into(), format!("at least {least}")]);
     }
     let s = &file.scene.counts;
     list.push([
@@ -83,7 +84,7 @@ fn yields(state: &StateAnswer) -> Option<String> {
 }
 
 /// For which law of sliding the answer holds.
-fn law(file: &ResultFile) -> Option<&'static str> {
+pub(super) fn law(file: &ResultFile) -> Option<&'static str> {
     let law = match (file.answer.load_factor(), file.answer.as_verdict()) {
         (Some(said), _) => said.law,
         (None, Some(said)) => said.law?,

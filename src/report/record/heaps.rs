@@ -1,6 +1,6 @@
 //! Heaps that came to rest, one a seed.
 
-use super::{Part, Record, Section};
+use super::{Cover, Part, Record, Section};
 use crate::heaps::{HeapResult, ReposeFile};
 use crate::text::heaps::known;
 use base::number::short;
@@ -19,17 +19,19 @@ impl Record {
             ["question".into(), question(file.protocol.kind).into()],
             ["answer".into(), answer(file)],
             ["meaning".into(), meaning(file.protocol.kind).into()],
-            ["made".into(), made],
         ];
-        let sections = vec![
-            Section::new("The heaps", vec![table(&file.heaps)]),
+        let appendices = vec![
             Section::new(
                 "How they were made",
                 vec![Part::Facts(protocol(file)), Part::Text(UNITS.into())],
             ),
-            Section::new("Versions", vec![Part::Facts(versions(&file.versions))]),
+            Section::new("Versions", vec![Part::Facts(versions(&file.versions, made))]),
         ];
-        Self { asked, drawing, sections }
+        Self {
+            cover: Cover { asked, drawing, ..Cover::signed("", &scene::Record::default()) },
+            results: vec![Section::new("The heaps", vec![table(&file.heaps)])],
+            appendices,
+        }
     }
 }
 
@@ -62,10 +64,11 @@ fn answer(file: &ReposeFile) -> String {
     }
 }
 
-fn versions(v: &Versions) -> Vec<[String; 2]> {
+fn versions(v: &Versions, made: String) -> Vec<[String; 2]> {
     vec![
         ["voussoir".into(), v.voussoir.clone()],
         ["format of results".into(), "voussoir-repose/1".into()],
+        ["made".into(), made],
     ]
 }
 

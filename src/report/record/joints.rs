@@ -75,16 +75,21 @@ fn uses<'a>(model: &Model, view: &View, state: &'a ViewState) -> Vec<Use<'a>> {
     uses
 }
 
-/// A table for each system of forces that is told.
-pub(super) fn sections(model: &Model, view: &View) -> Vec<Section> {
+/// The systems of forces that are told.
+pub(super) fn told(view: &View) -> Vec<&ViewState> {
     let state = |part: ViewPart| view.states.iter().find(|s| s.part == part && s.balances);
     let ends: Vec<&ViewState> =
         [ViewPart::Least, ViewPart::Greatest].into_iter().filter_map(state).collect();
-    let states = if ends.is_empty() {
+    if ends.is_empty() {
         state(ViewPart::Dry).or(state(ViewPart::Answer)).into_iter().collect()
     } else {
         ends
-    };
+    }
+}
+
+/// A table for each system of forces that is told.
+pub(super) fn sections(model: &Model, view: &View) -> Vec<Section> {
+    let states = told(view);
     if states.is_empty() {
         return Vec::new();
     }
@@ -94,7 +99,7 @@ pub(super) fn sections(model: &Model, view: &View) -> Vec<Section> {
 
 /// Shear below this share of the normal force is rounding. More: what is there is not shown. Less:
 /// forces of nothing are.
-const ROUNDING: f64 = 1e-9;
+pub(super) const ROUNDING: f64 = 1e-9;
 
 fn table(model: &Model, view: &View, state: &ViewState) -> Part {
     let uses = uses(model, view, state);

@@ -6,6 +6,43 @@ use base::number::short;
 use check::proof::result::ResultFile;
 use model::{assembly::JointLaw, interface::Model};
 
+/// Friction and strengths of the joints, in a few words.
+pub(super) fn said(view: &View) -> Vec<[String; 2]> {
+    if view.joints.is_empty() {
+        return Vec::new();
+    }
+    let friction = values(
+        view,
+        |law| law.friction.mu(),
+        |mu| match mu.is_finite() {
+            true => format!("μ = {}", short(mu)),
+            false => "no sliding".into(),
+        },
+    );
+    let strength = |name: &str, of: fn(&JointLaw) -> f64| {
+        let words = |v: f64| if v == 0.0 { "0".into() } else { quantity(v, "Pa") };
+        format!("{name} {}", values(view, of, words))
+    };
+    let strengths = [
+        strength("compression", |law| law.compression),
+        strength("cohesion", |law| law.cohesion),
+        strength("tension", |law| law.tension),
+    ];
+    vec![["friction".into(), friction], ["strength".into(), strengths.join("; ")]]
+}
+
+/// The values that joints have, or the least and the greatest of many.
+fn values(view: &View, of: impl Fn(&JointLaw) -> f64, words: impl Fn(f64) -> String) -> String {
+    const FEW: usize = 3;
+    let mut list: Vec<f64> = view.joints.iter().map(|j| of(&j.law)).collect();
+    list.sort_by(f64::total_cmp);
+    list.dedup();
+    match list[..] {
+        [first, .., last] if list.len() > FEW => format!("{} to {}", words(first), words(last)),
+        _ => list.into_iter().map(words).collect::<Vec<_>>().join(", "),
+    }
+}
+
 /// One row for each law of resistance.
 pub(super) fn section(model: &Model, view: &View) -> Option<Section> {
     let mut laws: Vec<(JointLaw, usize, f64)> = Vec::new();

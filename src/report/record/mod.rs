@@ -1,18 +1,22 @@
-//! The record of an assessment: what was asked, of what, with which assumptions, what came out, how
-//! far the joints are used, pictures, the proof, and what made it. Something to be filed and printed;
-//! it says nothing that the result does not hold.
+//! The record of an assessment, to be filed and printed: a first page that a person reads and signs,
+//! then the results, then appendices. It says nothing that the result does not hold.
 
 mod asked;
+mod cover;
 mod date;
 mod heaps;
 mod joints;
 mod laws;
+mod limits;
 mod loads;
 mod moved;
 mod pieces;
+mod positions;
 mod proof;
+mod reactions;
 mod section;
 
+pub use cover::Cover;
 pub use date::date;
 pub use section::{Part, Section};
 use section::{listed, percent, quantity};
@@ -20,20 +24,20 @@ use section::{listed, percent, quantity};
 use super::view::View;
 pub use joints::weak;
 
-use crate::drawing::{self, Aspect};
+use crate::drawing::Aspect;
 use check::proof::result::ResultFile;
 use check::question::QuestionKind;
 use model::interface::Model;
 
-/// A record, section by section.
+/// A record.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Record {
-    /// What was asked and what the number of the answer means; stands before everything else.
-    pub asked: Vec<[String; 2]>,
-    /// The drawing of the answer (SVG).
-    pub drawing: String,
-    /// The rest.
-    pub sections: Vec<Section>,
+    /// The first page.
+    pub cover: Cover,
+    /// What came out, beside the words of the answer.
+    pub results: Vec<Section>,
+    /// All that it was asked of, in tables; the proof, the file.
+    pub appendices: Vec<Section>,
 }
 
 /// Where a record comes from, as far as the result does not say it.
@@ -54,22 +58,19 @@ impl Record {
     pub fn new(file: &ResultFile, model: &Model, view: &View, from: Aspect, at: &Origin) -> Self {
         // Verdicts and tilts are about dead loads alone.
         let idle = matches!(file.question.kind(), QuestionKind::Assess | QuestionKind::Tilt);
-        let mut record = Self::of_scene(model, view, from, idle);
-        let mut asked = asked::facts(file);
-        asked.extend(at.facts());
-        record.asked = asked;
-        let first = joints::sections(model, view).into_iter().chain(moved::sections(file));
-        record.sections.splice(0..0, first);
-        record.sections.extend(laws::tolerances(file, model));
-        record.sections.extend(proof::sections(file));
-        record
-    }
-
-    fn of_scene(model: &Model, view: &View, from: Aspect, idle: bool) -> Self {
-        let mut sections = vec![pieces::section(model)];
-        sections.extend(laws::section(model, view));
-        sections.extend(loads::sections(model, view, idle));
-        Self { asked: Vec::new(), drawing: drawing::printed(view, from), sections }
+        let mut results = joints::sections(model, view);
+        results.extend(reactions::sections(view));
+        results.extend(loads::members(view));
+        results.extend(moved::sections(file));
+        let mut appendices = vec![pieces::section(model)];
+        appendices.extend(laws::section(model, view));
+        appendices.push(loads::section(model, view, idle));
+        appendices.extend(loads::soil(view));
+        appendices.extend(positions::section(file));
+        appendices.extend(laws::tolerances(file, model));
+        appendices.extend(proof::sections(file));
+        appendices.push(Section::new("Origin", vec![Part::Facts(at.facts())]));
+        Self { cover: Cover::new(file, model, view, from), results, appendices }
     }
 }
 

@@ -18,11 +18,19 @@ struct Sum {
     elastic: Option<[f64; 2]>,
 }
 
-/// The section about what the scene is made of.
-pub(super) fn section(model: &Model) -> Section {
-    let assembly = &model.assembly;
+impl Sum {
+    fn density(&self) -> String {
+        match self.density[1] - self.density[0] <= 1e-9 * self.density[1] {
+            true => short(self.density[0]),
+            false => format!("{} to {}", short(self.density[0]), short(self.density[1])),
+        }
+    }
+}
+
+/// The materials of the free blocks by name.
+fn sums(model: &Model) -> BTreeMap<&str, Sum> {
     let mut sums: BTreeMap<&str, Sum> = BTreeMap::new();
-    for block in assembly.blocks.iter().filter(|b| !b.support) {
+    for block in model.assembly.blocks.iter().filter(|b| !b.support) {
         let volume = block.solid.volume();
         let sum = sums.entry(block.material.as_deref().unwrap_or("")).or_insert(Sum {
             blocks: 0,
@@ -36,16 +44,32 @@ pub(super) fn section(model: &Model) -> Section {
             (sum.blocks + 1, sum.volume + volume, sum.mass + block.mass);
         sum.density = [sum.density[0].min(density), sum.density[1].max(density)];
     }
+    sums
+}
+
+/// Materials that are named with their densities.
+const MATERIALS: usize = 4;
+
+/// The densities of the materials, in a few words.
+pub(super) fn densities(model: &Model) -> String {
+    let sums = sums(model);
+    let words = |(name, s): (&&str, &Sum)| format!("{name} {} kg/m³", s.density());
+    let mut list: Vec<String> = sums.iter().take(MATERIALS).map(words).collect();
+    if sums.len() > MATERIALS {
+        list.push(format!("… and {} more", count(sums.len() - MATERIALS, "material")));
+    }
+    list.join(", ").trim().into()
+}
+
+/// The section about what the scene is made of.
+pub(super) fn section(model: &Model) -> Section {
+    let assembly = &model.assembly;
+    let sums = sums(model);
     let elastic = sums.values().any(|s| s.elastic.is_some());
     let row = |(name, s): (&&str, &Sum)| {
         let name = if name.is_empty() { "no name" } else { name };
-        let density = if s.density[1] - s.density[0] <= 1e-9 * s.density[1] {
-            short(s.density[0])
-        } else {
-            format!("{} to {}", short(s.density[0]), short(s.density[1]))
-        };
         let mut cells =
-            vec![name.into(), s.blocks.to_string(), density, short(s.volume), short(s.mass)];
+            vec![name.into(), s.blocks.to_string(), s.density(), short(s.volume), short(s.mass)];
         if elastic {
             let none = || ["–".to_string(), "–".to_string()];
             cells.extend(s.elastic.map_or_else(none, |[e, nu]| [quantity(e, "Pa"), short(nu)]));

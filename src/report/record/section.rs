@@ -30,6 +30,8 @@ pub enum Part {
         rows: Vec<Vec<String>>,
         /// What the columns mean.
         note: String,
+        /// The table runs over so many columns of the page.
+        across: usize,
     },
 }
 
@@ -40,7 +42,20 @@ impl Part {
             Some(name) => (name.into(), false),
             None => (c.to_string(), true),
         };
-        Self::Table { columns: columns.iter().map(column).collect(), rows, note: note.into() }
+        Self::Table {
+            columns: columns.iter().map(column).collect(),
+            rows,
+            note: note.into(),
+            across: 1,
+        }
+    }
+
+    /// A table of narrow rows, over so many columns of the page.
+    pub(super) fn across(mut self, columns: usize) -> Self {
+        if let Self::Table { across, .. } = &mut self {
+            *across = columns;
+        }
+        self
     }
 }
 

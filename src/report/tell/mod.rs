@@ -9,7 +9,7 @@ mod factor;
 mod kinematic;
 mod limit;
 mod meet;
-mod moving;
+pub(crate) mod moving;
 pub mod path;
 mod rocking;
 pub(crate) mod sensitivity;
@@ -124,7 +124,7 @@ pub(crate) fn title(page: &mut Page, file: &ResultFile) {
 }
 
 /// What was required, and whether it is there.
-fn required(file: &ResultFile) -> Option<String> {
+pub(crate) fn required(file: &ResultFile) -> Option<String> {
     file.required.map(words_of)
 }
 

@@ -6,15 +6,23 @@ use check::proof::result::ResultFile;
 use scene::{OnRoad, Template, generate};
 
 /// The parts of the model that can be switched, on or off, of every bridge of the scene; how much of
-/// its width carries what stands on it; whether the ring can crush.
+/// its width carries what stands on it.
+pub(crate) fn parts(file: &ResultFile) -> Vec<String> {
+    let templates = &file.scene.input.templates;
+    let mut lines: Vec<String> = templates.iter().flat_map(generate::said).collect();
+    if !lines.is_empty() {
+        lines.extend(effective_width(file));
+    }
+    lines
+}
+
+/// All that, and whether the ring can crush.
 pub(super) fn rows(page: &mut Page, file: &ResultFile) {
-    let input = &file.scene.input;
-    let mut lines: Vec<String> = input.templates.iter().flat_map(generate::said).collect();
+    let mut lines = parts(file);
     if lines.is_empty() {
         return;
     }
-    lines.extend(effective_width(file));
-    let joints = &input.joints;
+    let joints = &file.scene.input.joints;
     let crushes = joints.default.compression.is_some()
         || joints.overrides.iter().any(|o| o.compression.is_some());
     lines.push(match crushes {

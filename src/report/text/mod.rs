@@ -1,6 +1,6 @@
 //! Answers as text for people: the answer first, then why, then what next.
 
-mod bridge;
+pub(crate) mod bridge;
 mod checked;
 pub(crate) mod heaps;
 pub(crate) mod left_out;

@@ -10,6 +10,7 @@ mod film;
 mod member;
 mod motion;
 mod pressure;
+mod road;
 mod slope;
 mod stages;
 mod state;
@@ -21,6 +22,7 @@ pub use film::Film;
 pub use member::ViewMember;
 pub use motion::{Mark, ViewMotion, ViewPose};
 pub use pressure::ViewPressure;
+pub use road::{ViewRoad, ViewWheel, WHEEL, of as roads};
 pub use slope::ViewSlope;
 pub use stages::ViewValues;
 pub use state::{Resultant, Segment, ViewPart, ViewState};
@@ -84,8 +86,12 @@ pub struct View {
     pub values: Option<ViewValues>,
     /// The surface of a heap, with the line through it.
     pub slope: Option<ViewSlope>,
+    /// Roads of bridges.
+    pub roads: Vec<ViewRoad>,
     /// Whether supports are left out of pictures.
     pub hides_supports: bool,
+    /// Drawings have dimensions.
+    pub is_measured: bool,
 }
 
 /// A block.
@@ -172,6 +178,7 @@ impl View {
         if let Some(state) = file.answer.state() {
             view.pressures = pressure::of(model, state);
         }
+        view.roads = road::of(&file.scene.input, model, file.answer.moving());
         view.film = film;
         if let Some(path) = &file.path {
             view.course = Course::of(path);
@@ -244,7 +251,9 @@ impl View {
             course: Course::default(),
             values: None,
             slope: None,
+            roads: Vec::new(),
             hides_supports: false,
+            is_measured: false,
             bodies,
         }
     }

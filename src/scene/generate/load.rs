@@ -40,7 +40,34 @@ impl Road {
 
     /// Both springings of the intrados of every span, x in the scene, m.
     pub fn spans(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
-        self.surface.spans.iter().map(|s| s.map(|x| x + self.at[0]))
+        self.surface.openings.iter().map(|s| s.springings.map(|[x, _]| x + self.at[0]))
+    }
+
+    /// The upper surface of the structure and the road above it from left to right, points in the
+    /// scene, m; without fill no road.
+    pub fn outline(&self) -> [Vec<[f64; 3]>; 2] {
+        let below: Vec<[f64; 3]> = self.surface.line().map(|[x, z]| self.placed(x, z)).collect();
+        let ends = [below.first(), below.last()].into_iter().flatten();
+        let road = ends.filter(|_| self.surface.is_filled()).map(|p| self.on(p[0])).collect();
+        [below, road]
+    }
+
+    /// Of every span both springings and the crown of the intrados, and the extrados over it, m.
+    pub fn openings(&self) -> impl Iterator<Item = [[f64; 3]; 4]> + '_ {
+        self.surface.openings.iter().map(|o| {
+            let ([left, right], [x, z]) = (o.springings, o.crown);
+            [left, right, o.crown, [x, z + o.thickness]].map(|[x, z]| self.placed(x, z))
+        })
+    }
+
+    /// Where a wheel stands, its x in the scene, m.
+    pub fn on(&self, x: f64) -> [f64; 3] {
+        let own = x - self.at[0];
+        self.placed(own, self.surface.height(own))
+    }
+
+    fn placed(&self, x: f64, z: f64) -> [f64; 3] {
+        [x + self.at[0], self.at[1], z + self.at[2]]
     }
 
     /// What a force on the road does to the template; nothing where it has no road there.

@@ -363,7 +363,7 @@ fn a_record_is_printed() {
     let metrics = json!({ "width": 690, "height": 1000, "deviceScaleFactor": 1, "mobile": false });
     browser.command("Emulation.setDeviceMetricsOverride", metrics);
     let seen = "const seen = (q) => [...document.querySelectorAll(q)].filter((e) => e.getClientRects().length > 0);
-        return [seen('canvas, button, select, input, summary').length, seen('.record .sheet .pin').length > 0, seen('.record table').length,
+        return [seen('canvas, button, select, input, summary').length, seen('.cover .sheet .pin').length > 0, seen('.record table').length,
             document.documentElement.scrollWidth <= innerWidth, seen('.typed, .internals').length]";
     let found = browser.run(seen);
     assert_eq!(

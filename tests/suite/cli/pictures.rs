@@ -128,6 +128,27 @@ fn models_are_written_beside_the_answer() {
     expect(USAGE, voussoir(&wrong));
 }
 
+/// Dimensions are those of the scene: two spans of 6 m, 1.5 m high, 0.45 m thick, on a drawing alone.
+#[test]
+fn dimensions_are_those_of_the_scene() {
+    let desk = Desk::new();
+    let svg = desk.at("a.svg");
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/structures/bridge-two-spans.json");
+    let asked = ["assess", scene, "--law", "associative", "-q", "--dimensions"];
+    expect(YES, voussoir(&[&asked[..], &["--svg", &svg]].concat()));
+    let drawn = fs::read_to_string(desk.path("a.svg")).unwrap();
+    let sizes: Vec<&str> = drawn
+        .split("<text class=\"size\"")
+        .skip(1)
+        .map(|t| t.split_once('>').unwrap().1.split('<').next().unwrap())
+        .collect();
+    assert_eq!(sizes[2..], ["6 m", "1.5 m", "0.45 m", "6 m", "1.5 m", "0.45 m"]);
+    // From the foot of the pier to the crown of the extrados.
+    assert!(sizes[1].starts_with("4.9"), "{sizes:?}");
+    let said = expect(USAGE, voussoir(&asked));
+    assert!(String::from_utf8_lossy(&said.stderr).contains("--dimensions"), "{said:?}");
+}
+
 #[test]
 fn saved_results_and_scenes_are_drawn_by_check() {
     let desk = Desk::new();

@@ -152,29 +152,8 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
         file.directions.iter().filter_map(|d| d.answer.moving()).collect();
     let both = file.scene.input.train.as_ref().is_some_and(train::is_symmetric);
     let line = |a: &&MovingAnswer| {
-        let l = &a.load_factor;
-        let value = match (l.status, l.value, l.associative.found()) {
-            (FactorStatus::Found, Some(v), Some((bound, ..))) if v == bound => {
-                format!("λ = {}", rounded_down(v))
-            }
-            (FactorStatus::Found, Some(v), _) => {
-                format!("λ = {} with dry friction", rounded_down(v))
-            }
-            (FactorStatus::Unbounded, ..) => "without a limit".into(),
-            (FactorStatus::Impossible, ..) => "falls, whatever the train".into(),
-            (FactorStatus::AtLeast, _, bound) => {
-                let most = bound.map(|(.., upper)| format!(", at most {}", rounded_up(upper)));
-                let least = l.lower.map(rounded_down).unwrap_or_default();
-                format!("λ at least {least} with dry friction{}", most.unwrap_or_default())
-            }
-            (FactorStatus::NotAtRest, ..) => "moves without the train".into(),
-            (_, _, Some((.., upper))) => {
-                format!("λ at most {}, with dry friction undecided", rounded_up(upper))
-            }
-            _ => "undecided".into(),
-        };
         let way = if both { String::new() } else { format!(" {}", a.travel.words()) };
-        format!("x = {}{way}: {value}", short(a.x))
+        format!("x = {}{way}: {}", short(a.x), value(a))
     };
     // All where there is room for them, else as many, evenly spread.
     let shown: Vec<&&MovingAnswer> = match options.verbose || said.len() <= POSITIONS {
@@ -186,4 +165,29 @@ pub(super) fn rows(page: &mut Page, file: &ResultFile, options: TextOptions) {
         lines.push(format!("… of {} (--verbose for all)", said.len()));
     }
     page.row("positions", cut(&lines, usize::MAX - 1, options));
+}
+
+/// The load factor at a position, in words.
+pub(crate) fn value(a: &MovingAnswer) -> String {
+    let l = &a.load_factor;
+    match (l.status, l.value, l.associative.found()) {
+        (FactorStatus::Found, Some(v), Some((bound, ..))) if v == bound => {
+            format!("λ = {}", rounded_down(v))
+        }
+        (FactorStatus::Found, Some(v), _) => {
+            format!("λ = {} with dry friction", rounded_down(v))
+        }
+        (FactorStatus::Unbounded, ..) => "without a limit".into(),
+        (FactorStatus::Impossible, ..) => "falls, whatever the train".into(),
+        (FactorStatus::AtLeast, _, bound) => {
+            let most = bound.map(|(.., upper)| format!(", at most {}", rounded_up(upper)));
+            let least = l.lower.map(rounded_down).unwrap_or_default();
+            format!("λ at least {least} with dry friction{}", most.unwrap_or_default())
+        }
+        (FactorStatus::NotAtRest, ..) => "moves without the train".into(),
+        (_, _, Some((.., upper))) => {
+            format!("λ at most {}, with dry friction undecided", rounded_up(upper))
+        }
+        _ => "undecided".into(),
+    }
 }

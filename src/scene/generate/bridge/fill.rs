@@ -284,14 +284,25 @@ pub struct Spread {
     pub width: f64,
 }
 
+/// The opening of a span.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Opening {
+    /// Both springings of the intrados, x and z, m.
+    pub springings: [Xz; 2],
+    /// The crown of the intrados, m.
+    pub crown: Xz,
+    /// Thickness of all rings at the crown, m.
+    pub thickness: f64,
+}
+
 /// The upper surface of a bridge and what lies on it, made ready for any number of loads.
 pub struct Surface {
     chords: Vec<Chord>,
     /// The road, how far a load spreads per metre of depth, and how it is distributed there.
     fill: Option<(Road, f64, Distribution)>,
     width: f64,
-    /// Both springings of the intrados of every span, x, m.
-    pub spans: Vec<[f64; 2]>,
+    /// The spans from left to right.
+    pub openings: Vec<Opening>,
 }
 
 impl Surface {
@@ -303,12 +314,47 @@ impl Surface {
             chords: chords(bridge, &plan, masonry.as_ref()),
             fill: bridge.fill.as_ref().map(road),
             width: bridge.width,
-            spans: plan
+            openings: plan
                 .spans
                 .iter()
-                .map(|s| [-0.5, 0.5].map(|k| s.center + k * s.clear_span))
+                .zip(&bridge.spans)
+                .map(|(s, own)| Opening {
+                    springings: [-0.5, 0.5].map(|k| [s.center + k * s.clear_span, 0.0]),
+                    crown: [s.center + s.crown[0], s.crown[1]],
+                    thickness: own.thickness,
+                })
                 .collect(),
         })
+    }
+
+    /// The upper surface of the structure from left to right, x and z, m.
+    pub fn line(&self) -> impl Iterator<Item = Xz> + '_ {
+        self.chords.iter().flat_map(|c| [c.from, c.to])
+    }
+
+    /// How high what drives over the bridge stands at a place along x, m; as at its ends beyond them.
+    pub fn height(&self, x: f64) -> f64 {
+        if let Some((road, ..)) = &self.fill {
+            return road.height(x);
+        }
+        let at = |c: &&Chord| c.from[0] <= x && x <= c.to[0];
+        let ends = [self.chords.first().map(|c| c.from), self.chords.last().map(|c| c.to)];
+        match (self.chords.iter().find(at), ends) {
+            (Some(chord), _) => chord.height(x),
+            (None, [Some(first), Some(last)]) => {
+                if x < first[0] {
+                    first[1]
+                } else {
+                    last[1]
+                }
+            }
+            (None, _) => 0.0,
+        }
+    }
+
+    /// Whether there is fill.
+    pub fn is_filled(&self) -> bool {
+        self.fill.is_some()
     }
 
     /// What a `force` on a stretch of the road does to the bridge; `x` of the stretch is about the
