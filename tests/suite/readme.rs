@@ -224,19 +224,20 @@ fn the_first_screen_holds_the_two_commands() {
 
 #[test]
 fn the_scene_and_the_library_example_work() {
-    let text: String = guide().into_iter().map(|(_, text)| text).collect();
-    let block = |kind: &str| {
+    let pages: String = guide().into_iter().map(|(_, text)| text).collect();
+    let scenes = std::fs::read_to_string(root().join("docs/guide/scenes.md")).unwrap();
+    let block = |text: &str, kind: &str| {
         text.split(&format!("```{kind}\n"))
             .nth(1)
             .and_then(|t| t.split("```").next())
             .unwrap()
             .to_string()
     };
-    let (scene, _) = voussoir::scene::read_str("docs/guide/scenes.md", block("json")).unwrap();
+    let (scene, _) = voussoir::scene::read_str("docs/guide/scenes.md", block(&scenes, "json")).unwrap();
     let model = voussoir::interface::prepare(&scene).unwrap();
     assert_eq!(model.assembly.blocks.len(), 30);
     let tour = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/src/lib.rs")).unwrap();
-    for line in block("rust").lines() {
+    for line in block(&pages, "rust").lines() {
         assert!(tour.contains(line), "the crate tour in src/lib.rs does not hold: {line}");
     }
 }
