@@ -29,6 +29,7 @@ NAMES = {
     "ContactSpec": "ContactTolerances",
     "InterfaceSpec": "Interface",
     "JointOverride": "Joint",
+    "Record": "Heading",
     "StageSpec": "Stage",
     # Answers.
     "Factor": "GeometricFactor",
@@ -54,6 +55,7 @@ UNDER = {
     "JointOverride": "overrides",
     "Member": "members",
     "PushingMass": "masses",
+    "Record": "record",
     "Requirements": "require",
     "Site": "site",
     "StageSpec": "stages",
@@ -430,6 +432,7 @@ BY_VALUE: dict[str, Schema] = {
     "Clump": {"spheres": BALLS},
     "ContactTolerances": {"gap": 0.001, "angle_deg": 2},
     "Dowel": {"blocks": ["v03", "v04"], "at": [1, 0, 2], "strength": 8_000},
+    "Heading": {"project": "Mill Lane", "author": "A. Mason", "revision": "B"},
     "Lattice": {"packing": "square", "radius": 0.05, "layers": 3, "material": "glass"},
     "Near": {"near": [0, 0.15, 3]},
     "Plane": {"normal": [0, 0, 1]},

@@ -268,6 +268,7 @@ impl Scene {
                 self.change().joints.default = rule;
             }
             "contact" => self.change().contact = part(item, root)?,
+            "record" => self.change().record = part(item, root)?,
             "require" => self.change().require = part(item, root)?,
             "site" => self.change().site = part(item, root)?,
             "train" => self.change().train = part(item, root)?,

@@ -24,7 +24,7 @@ Friction: TypeAlias = float | Literal["infinite"]
 Up: TypeAlias = Literal["x", "y", "z", "-x", "-y", "-z"]
 """An axis of a file that points up."""
 
-ONE = ("contact", "require", "site", "train")
+ONE = ("contact", "record", "require", "site", "train")
 """Keys of a scene with one value."""
 
 

@@ -40,6 +40,7 @@ __all__ = [
     "FlatArch",
     "Grip",
     "Groin",
+    "Heading",
     "Interface",
     "Joint",
     "Lantern",
@@ -75,6 +76,41 @@ __all__ = [
     "Train",
     "Wall",
 ]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class Heading(Value):
+    """Project and people, for the first page of the record of an assessment. No answer
+    depends on it; what is absent is a blank line there.
+
+    Parameters
+    ----------
+    project : str, optional
+        Name or number of the project.
+    author : str, optional
+        Who made the assessment.
+    checker : str, optional
+        Who checks it.
+    revision : str, optional
+        Revision, such as ``B``.
+    date : str, optional
+        Date of the revision, as it is to be read.
+
+    Examples
+    --------
+    >>> import voussoir
+    >>> heading = voussoir.Heading(project="Mill Lane", author="A. Mason", revision="B")
+    >>> scene = voussoir.Scene().add(heading)
+    >>> heading.project
+    'Mill Lane'
+    """
+
+    _under: ClassVar[str | None] = "record"
+    project: str | None = None
+    author: str | None = None
+    checker: str | None = None
+    revision: str | None = None
+    date: str | None = None
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
