@@ -23,6 +23,7 @@ __all__ = [
     "CurvePoint",
     "Deciding",
     "Demand",
+    "Derivative",
     "Displacement",
     "Doubt",
     "Event",
@@ -67,6 +68,7 @@ __all__ = [
     "Residuals",
     "Run",
     "ScanPoint",
+    "Sensitivity",
     "Series",
     "ShakeOptions",
     "ShakenBlock",
@@ -2021,6 +2023,75 @@ class Why(Record):
     stages: list[tuple[str, Doubt]]
     no_scene: list[tuple[float, str]]
     range: list[str]
+
+
+class Sensitivity(Record):
+    """How a value changes with every number that was assumed.
+
+    Attributes
+    ----------
+    of : {"load_factor", "tilt_deg", "alpha0"}
+        What changes.
+
+        * ``load_factor``: The load factor λ.
+        * ``tilt_deg``: The tilt, degrees.
+        * ``alpha0``: The load factor α0 of an earthquake.
+
+    law : {"associative", "coulomb"}
+        For which law of sliding: ``associative`` means the bound.
+
+        * ``associative``: A joint that slides opens by μ × the slip. Admissible forces are then
+          enough to stand.
+        * ``coulomb``: Dry friction: a joint slides without opening. Forces must also be such as
+          the loads produce.
+
+    numbers : list of Derivative
+        One a number, the one that matters most first.
+    omitted : int or None
+        Numbers of the scene that are left out, beyond so many.
+    """
+
+    of: Literal["load_factor", "tilt_deg", "alpha0"]
+    law: Literal["associative", "coulomb"]
+    numbers: list[Derivative]
+    omitted: int | None
+
+
+class Derivative(Record):
+    """How a value changes with one number.
+
+    Attributes
+    ----------
+    pointer : str
+        Where the number stands: its JSON pointer into the scene.
+    value : float
+        The number.
+    unit : str
+        Its unit; empty where it has none.
+    left : float or None
+        Change of the value per unit of the number as that falls.
+    right : float or None
+        The same as it grows.
+    per_percent : float or None
+        Change of the value where the number changes by 1 % (of a place: by 1 % of the size of
+        the block), the greater of both sides in size.
+    origin : {"proof", "asked_again", "not_asked"}
+        How it is known.
+
+        * ``proof``: From the forces and the mechanism that prove the value: what of them counts
+          is the same in all that prove it.
+        * ``asked_again``: Asked again with the number a little less and a little more.
+          Computed, not proved.
+        * ``not_asked``: It has two sides, or slides with dry friction, and was not asked again.
+    """
+
+    pointer: str
+    value: float
+    unit: str
+    left: float | None
+    right: float | None
+    per_percent: float | None
+    origin: Literal["proof", "asked_again", "not_asked"]
 
 
 class AssessmentKeys(Keys):
