@@ -227,6 +227,7 @@ impl Answer {
             }
             "doubt" => pythonize(py, &f.run.doubt)?,
             "required" => pythonize(py, &f.required)?,
+            "sensitivity" => pythonize(py, &f.sensitivity)?,
             "left_out_contacts" => pythonize(py, &f.left_out_contacts)?,
             "left_out" => pythonize(py, &f.run.left_out)?,
             "simulation" => pythonize(py, &f.simulation)?,

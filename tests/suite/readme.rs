@@ -233,7 +233,8 @@ fn the_scene_and_the_library_example_work() {
             .unwrap()
             .to_string()
     };
-    let (scene, _) = voussoir::scene::read_str("docs/guide/scenes.md", block(&scenes, "json")).unwrap();
+    let (scene, _) =
+        voussoir::scene::read_str("docs/guide/scenes.md", block(&scenes, "json")).unwrap();
     let model = voussoir::interface::prepare(&scene).unwrap();
     assert_eq!(model.assembly.blocks.len(), 30);
     let tour = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/src/lib.rs")).unwrap();
