@@ -1,5 +1,5 @@
 //! The one door: every question goes through [`ask`], whoever asks it, and every answer that comes
-//! out of it was checked on the scene ([`Proved`]). A further question is a further arm here, a
+//! out of it was checked on the scene ([`Proved`](super::Proved)). A further question is a further arm here, a
 //! variant of [`Question`] and one of [`Answer`].
 
 use super::{

@@ -120,7 +120,7 @@ fn ordered(
 /// many tries knows; for who checks what was said about it.
 ///
 /// # Errors
-/// As [`stages`].
+/// As `stages`.
 pub fn least_held(said: &Order, scene: &Scene, model: &Model) -> Result<usize, InputError> {
     if said.tries > MOST_TRIES {
         let text = format!("the search for an order is limited to {MOST_TRIES} tries");

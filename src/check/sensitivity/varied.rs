@@ -56,7 +56,7 @@ impl<'a> Varied<'a> {
         Ok(Self { document, scene, model, under })
     }
 
-    /// The numbers of the scene that were assumed and act, at most [`MOST`] of them, and how many
+    /// The numbers of the scene that were assumed and act, at most `MOST` of them, and how many
     /// there are beyond.
     pub fn numbers(&self) -> (Vec<Number>, usize) {
         let acts = |n: &Number| match self.under {
