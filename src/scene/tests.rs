@@ -99,7 +99,7 @@ fn wrong_text_is_refused_with_place_and_remedy() {
         ),
         (
             r#" "materials": { "a": { "density": 1, "colour": 2 } } }"#,
-            "s.json:2:38: materials.a.colour: unknown key; hint: choose one of \"density\", \"young\", \"poisson\" (or remove it)",
+            "s.json:2:38: materials.a.colour: unknown key; hint: choose one of \"density\", \"young\", \"poisson\", \"action\" (or remove it)",
         ),
         (
             r#" "blocks": [ { "id": "a" } ] }"#,
