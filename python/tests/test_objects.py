@@ -254,6 +254,7 @@ def test_film() -> None:
 
 
 def test_blocks_on_ground_that_moves() -> None:
+    pytest.importorskip("pandas", reason="pandas is not installed")
     still = voussoir.shake(table(), pulse={"jump": {"velocity": 0.05}}, fast=True, seconds=0.5)
     assert still.fate in ("rests", "moves") and still.overturned is None
     frame = still.to_frame()

@@ -107,6 +107,7 @@ def test_the_other_verbs(structures: Path) -> None:
 
 
 def test_movements(structures: Path) -> None:
+    pytest.importorskip("pandas", reason="pandas is not installed")
     arch = structures / "semicircular-arch-thick.json"
     scene = voussoir.load(arch)
     support = scene.inspect()["blocks"][-1]["id"]
@@ -148,6 +149,7 @@ def test_a_path_is_kept_and_taken_up(structures: Path, tmp_path: Path) -> None:
 
 
 def test_earthquakes(structures: Path) -> None:
+    pytest.importorskip("pandas", reason="pandas is not installed")
     wall = structures / "overturning-wall.json"
     answer = voussoir.kinematic(wall, toward=(1, 0))
     expected = said("kinematic", wall, "--toward", "1,0")
@@ -162,6 +164,7 @@ def test_earthquakes(structures: Path) -> None:
 
 
 def test_stages(structures: Path) -> None:
+    pytest.importorskip("pandas", reason="pandas is not installed")
     arch = structures / "arch-without-centring.json"
     answer = voussoir.stages(arch, toward=(1, 0))
     expected = said("stages", arch, "--toward", "1,0")
@@ -182,6 +185,7 @@ def test_stages(structures: Path) -> None:
 
 
 def test_joints_that_yield(structures: Path) -> None:
+    pytest.importorskip("pandas", reason="pandas is not installed")
     bed = structures / "block-on-bed.json"
     answer = voussoir.state(bed)
     assert without_time(answer.to_dict()) == without_time(said("state", bed))
@@ -199,6 +203,7 @@ def test_joints_that_yield(structures: Path) -> None:
 
 @pytest.mark.filterwarnings("ignore::voussoir.SceneWarning")
 def test_what_is_required(structures: Path) -> None:
+    pytest.importorskip("pandas", reason="pandas is not installed")
     bridge = structures / "bridge-two-spans.json"
     answer = voussoir.combinations(bridge, {"moving": {"law": "associative"}}, only=["STR"])
     expected = said("combinations", bridge, "--law", "associative", "--only", "STR")

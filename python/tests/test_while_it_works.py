@@ -134,6 +134,7 @@ def test_batches_are_the_single_answers() -> None:
 
 
 def test_piles_from_arrays_are_scenes() -> None:
+    pytest.importorskip("pandas", reason="pandas is not installed")
     scene = voussoir.Scene("shapes", friction=0.6, density=2400)
     scene.box("ground", (4, 4, 0.2), support=True).box("brick", (0.4, 0.4, 0.2))
     piles = voussoir.Piles(scene)
