@@ -17,7 +17,7 @@ use check::{
     verdict::Verdict,
 };
 use dynamics::Progress;
-use model::interface::Model;
+use model::interface::{Model, prepare};
 use scene::Scene;
 use solve::deadline::Deadline;
 use std::ops::ControlFlow;
@@ -72,6 +72,19 @@ impl Recompute for Solvers {
         let control = Control { law, ..self.control() };
         let probe = self.in_time(|| probe(scene, pointer, value, &control))?;
         Some(probe.map(|p| (p.assessment.verdict, p.equilibrium_error())))
+    }
+
+    fn met(
+        &self,
+        question: &Question,
+        scene: &Scene,
+    ) -> Option<Result<(Option<bool>, Option<f64>), InputError>> {
+        self.in_time(|| {
+            let model = prepare(scene)?;
+            let answer = ask(question, scene, &model, &self.control())?;
+            let own = saved::of(question, scene, &model, &answer)?.nested();
+            Ok((own.holds(), own.required.and_then(|r| r.obtained)))
+        })
     }
 
     fn closed(

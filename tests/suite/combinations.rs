@@ -344,7 +344,10 @@ fn forged_sizes_are_refused() {
     let scene = read(&facade(1.0));
     let good = sized(&scene, [100.0, 1e5]);
     leaves_hold(&good);
-    let edits: [crate::ask::Edit; 3] = [
+    let edits: [crate::ask::Edit; 4] = [
+        ("a value of the scan", &|v| {
+            v["evidence"]["meet"]["scan"][1]["met"] = json!(true);
+        }),
         ("a smaller tie", &|v| {
             v["evidence"]["meet"]["sides"][0][1]["value"] = json!(20_000.0);
         }),

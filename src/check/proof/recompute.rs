@@ -43,6 +43,16 @@ pub trait Recompute {
         None
     }
 
+    /// Whether a question meets what is required of it in a scene, and what it obtains; or that there
+    /// is no such scene.
+    fn met(
+        &self,
+        _question: &Question,
+        _scene: &Scene,
+    ) -> Option<Result<(Option<bool>, Option<f64>), InputError>> {
+        None
+    }
+
     /// What the engine does, run again.
     fn simulated(
         &self,

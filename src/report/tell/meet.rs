@@ -69,7 +69,13 @@ fn title(a: &MeetAnswer) -> (String, Role) {
         ([], None) => (format!("undecided where {what} is met"), Role::Unsure),
         (list, _) => {
             let words: Vec<String> = list.iter().map(|c| change(name(&a.vary), c)).collect();
-            (format!("{what} is met {}", words.join("; ")), Role::Value)
+            let (cut, role) = match a.complete {
+                true => ("", Role::Value),
+                false => {
+                    ("; the scan ended early, and the rest of the range is undecided", Role::Unsure)
+                }
+            };
+            (format!("{what} is met {}{cut}", words.join("; ")), role)
         }
     }
 }
