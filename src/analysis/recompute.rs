@@ -8,8 +8,12 @@ use base::error::InputError;
 use check::{
     elastic::PathEnd,
     proof::{
-        self, Saved, recompute::Recompute, rocking::RockingAnswer, shaken::ShakenAnswer,
-        simulation::Seen, verify::Verified,
+        self, Saved,
+        recompute::{Obtained, Recompute},
+        rocking::RockingAnswer,
+        shaken::ShakenAnswer,
+        simulation::Seen,
+        verify::Verified,
     },
     rocking::RockOptions,
     sensitivity::Target,
@@ -74,11 +78,7 @@ impl Recompute for Solvers {
         Some(probe.map(|p| (p.assessment.verdict, p.equilibrium_error())))
     }
 
-    fn met(
-        &self,
-        question: &Question,
-        scene: &Scene,
-    ) -> Option<Result<(Option<bool>, Option<f64>), InputError>> {
+    fn met(&self, question: &Question, scene: &Scene) -> Option<Result<Obtained, InputError>> {
         self.in_time(|| {
             let model = prepare(scene)?;
             let answer = ask(question, scene, &model, &self.control())?;

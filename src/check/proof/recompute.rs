@@ -13,6 +13,9 @@ use base::error::InputError;
 use model::interface::Model;
 use scene::Scene;
 
+/// Whether what is required is met, and what is obtained of it, where these are known.
+pub type Obtained = (Option<bool>, Option<f64>);
+
 /// What only a solver or an engine can do again. Who has neither ([`Nothing`]) answers `None` to
 /// everything here, and what was to be known stays unchecked.
 pub trait Recompute {
@@ -45,11 +48,7 @@ pub trait Recompute {
 
     /// Whether a question meets what is required of it in a scene, and what it obtains; or that there
     /// is no such scene.
-    fn met(
-        &self,
-        _question: &Question,
-        _scene: &Scene,
-    ) -> Option<Result<(Option<bool>, Option<f64>), InputError>> {
+    fn met(&self, _question: &Question, _scene: &Scene) -> Option<Result<Obtained, InputError>> {
         None
     }
 
