@@ -15,6 +15,8 @@ pub fn run(args: &Import) -> anyhow::Result<Exit> {
         support_files: args.supports_file.clone(),
         friction: args.friction,
         density: args.density,
+        depth: args.depth,
+        support_layers: args.support_layer.clone(),
         scale: args.scale,
         up: args.up,
         gap: args.gap,

@@ -159,12 +159,10 @@ fn scaled(model: &Model, options: &ImportOptions) -> Option<Finding> {
     let mut sizes: Vec<f64> = model.assembly.blocks.iter().map(|b| b.size).collect();
     sizes.sort_by(f64::total_cmp);
     let median = sizes.get(sizes.len() / 2)?;
-    (options.scale < 1.0 && *median < SCALED_FOR_NOTHING).then(|| {
-        let text = format!(
-            "The blocks measure {} m across after multiplication by {}. It looks like a file that was in metres already: leave --scale out",
-            short(*median),
-            options.scale
-        );
-        Finding::new(FindingCode::Units, text)
-    })
+    let scale = options.scale.filter(|&s| s < 1.0 && *median < SCALED_FOR_NOTHING)?;
+    let text = format!(
+        "The blocks measure {} m across after multiplication by {scale}. It looks like a file that was in metres already: leave --scale out",
+        short(*median)
+    );
+    Some(Finding::new(FindingCode::Units, text))
 }

@@ -30,6 +30,7 @@ mod cracks;
 mod critical;
 mod determinism;
 mod doubts;
+mod drawings;
 mod dry;
 mod dynamics;
 mod edges;

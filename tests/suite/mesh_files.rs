@@ -221,6 +221,8 @@ fn what_the_reader_says_of_a_mesh_is_said_and_what_it_refuses_is_refused() {
         ("broken.obj", "v 0 0 zero\n", "broken.obj: line 1: coordinate z"),
         ("words.txt", "nothing of the kind", "unknown from both the extension and the content"),
         ("scene.json", "{}", "this is JSON, not a mesh"),
+        ("wall.dxf", "0\nSECTION\n", "this is DXF, not a mesh"),
+        ("heap.csv", "x,y,z,radius\n", "this is grains, not a mesh"),
         ("empty.stl", "", "no triangles"),
     ] {
         fs::write(at.join(name), content).unwrap();

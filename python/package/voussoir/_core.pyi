@@ -196,10 +196,12 @@ def import_scene(
     support_files: Sequence[str | os.PathLike[str]] = ...,
     friction: float | None = None,
     density: float | None = None,
-    scale: float = 1.0,
+    scale: float | None = None,
     up: str = "z",
     gap: float | None = None,
     angle_deg: float | None = None,
     stored_interfaces: bool = True,
+    depth: float | None = None,
+    support_layers: Sequence[str] = ...,
 ) -> tuple[Scene, list[_Finding]]: ...
 def command(program: str | os.PathLike[str], arguments: Sequence[str]) -> int: ...

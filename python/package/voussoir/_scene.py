@@ -312,13 +312,15 @@ def import_file(
     support_files: Iterable[str | os.PathLike[str]] = (),
     friction: Friction | None = None,
     density: float | None = None,
-    scale: float = 1.0,
+    scale: float | None = None,
     up: Up = "z",
     gap: float | None = None,
     angle_deg: float | None = None,
     stored_interfaces: bool = True,
+    depth: float | None = None,
+    support_layers: Iterable[str] = (),
 ) -> Scene:
-    """Make a scene of files of other programs: COMPAS JSON, OBJ, PLY, STL.
+    """Make a scene of files of other programs: COMPAS JSON, OBJ, DXF, PLY, STL.
 
     Parameters
     ----------
@@ -334,14 +336,19 @@ def import_file(
         Coefficient of friction of every joint.
     density : float, optional
         kg/m³, in place of what the file says.
-    scale : float
-        Multiplies coordinates: 0.001 for a file in millimetres.
+    scale : float, optional
+        Multiplies coordinates: 0.001 for a file in millimetres; by default the unit that the file
+        names.
     up : {"x", "y", "z", "-x", "-y", "-z"}
         The axis of the file that points up.
     gap, angle_deg : float, optional
         When faces touch, as in :class:`ContactTolerances`.
     stored_interfaces : bool
         Keep those of the file in place of contacts that are detected.
+    depth : float, optional
+        Thickness of the blocks of a plane drawing (DXF), m.
+    support_layers : names
+        Layers of a drawing whose blocks are held.
 
     Returns
     -------
@@ -380,6 +387,8 @@ def import_file(
         gap=gap,
         angle_deg=angle_deg,
         stored_interfaces=stored_interfaces,
+        depth=depth,
+        support_layers=list(support_layers),
     )
     return Scene._of(scene)
 

@@ -107,15 +107,21 @@ pub struct Import {
     /// File whose blocks are all held in place; may be given several times.
     #[arg(long, value_name = "FILE")]
     pub supports_file: Vec<PathBuf>,
+    /// Layer of a drawing (DXF) whose blocks are held in place; may be given several times.
+    #[arg(long, value_name = "NAME")]
+    pub support_layer: Vec<String>,
+    /// Thickness of the blocks of a plane drawing (DXF), in m.
+    #[arg(long, value_name = "D", allow_negative_numbers = true, value_parser = positive)]
+    pub depth: Option<f64>,
     /// Coefficient of friction of every joint, or `infinite`.
     #[arg(long, value_name = "MU", allow_negative_numbers = true, value_parser = friction)]
     pub friction: Option<Friction>,
     /// Density of every block, kg/m³, in place of the file's own.
     #[arg(long, value_name = "DENSITY", allow_negative_numbers = true, value_parser = positive)]
     pub density: Option<f64>,
-    /// Multiply coordinates: 0.001 for a file in millimetres.
-    #[arg(long, value_name = "S", default_value_t = 1.0, allow_negative_numbers = true, value_parser = positive)]
-    pub scale: f64,
+    /// Multiply coordinates: 0.001 for a file in millimetres; by default the unit that the file names.
+    #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = positive)]
+    pub scale: Option<f64>,
     /// Axis of the file that points up: x, y, z, -x, -y or -z.
     #[arg(long, value_name = "AXIS", default_value = "z", allow_hyphen_values = true, value_parser = up)]
     pub up: Up,

@@ -32,10 +32,13 @@ pub(super) fn scene(mut files: Vec<Raw>, options: &ImportOptions) -> Result<Impo
     let mut origins = Vec::new();
     findings.extend(told(&mut files));
     for file in files {
+        let scale = file.scale(options);
+        let place = |points: &mut [[f64; 3]], what: &str| {
+            place(points, scale, options.up).map_err(|v| beyond(&file.origin, what, v, scale))
+        };
         scene.materials.extend(file.materials);
         for mut block in file.blocks {
-            place(&mut block.vertices, options)
-                .map_err(|v| beyond(&file.origin, &block.id, v, options))?;
+            place(&mut block.vertices, &block.id)?;
             origins.push(Origin { file: file.name.clone(), line: block.line, lines: block.lines });
             let shape = Shape::Polyhedron { vertices: block.vertices, faces: block.faces };
             scene.blocks.push(BlockSpec {
@@ -46,9 +49,8 @@ pub(super) fn scene(mut files: Vec<Raw>, options: &ImportOptions) -> Result<Impo
         }
         for grain in file.grains {
             let mut centers: Vec<[f64; 3]> = grain.spheres.iter().map(|s| s.0).collect();
-            place(&mut centers, options)
-                .map_err(|v| beyond(&file.origin, &grain.id, v, options))?;
-            let radii = grain.spheres.iter().map(|s| s.1 * options.scale);
+            place(&mut centers, &grain.id)?;
+            let radii = grain.spheres.iter().map(|s| s.1 * scale);
             origins.push(Origin {
                 file: file.name.clone(),
                 line: Some(grain.line),
@@ -62,8 +64,7 @@ pub(super) fn scene(mut files: Vec<Raw>, options: &ImportOptions) -> Result<Impo
         }
         with_forces += file.with_forces;
         for mut interface in file.interfaces {
-            place(&mut interface.points, options)
-                .map_err(|v| beyond(&file.origin, &interface.between.join("–"), v, options))?;
+            place(&mut interface.points, &interface.between.join("–"))?;
             interface.normal = interface.normal.map(|n| options.up.rotate(n));
             scene.interfaces.push(interface);
         }
@@ -189,8 +190,8 @@ fn source(files: &[Raw], options: &ImportOptions) -> String {
         "imported from {}",
         files.iter().map(|f| f.origin.as_str()).collect::<Vec<_>>().join(", ")
     );
-    if options.scale != 1.0 {
-        text.push_str(&format!("; coordinates × {}", options.scale));
+    if let Some(scale) = options.scale.filter(|&s| s != 1.0) {
+        text.push_str(&format!("; coordinates × {scale}"));
     }
     match options.up {
         Up::Z => {}
@@ -204,9 +205,9 @@ fn source(files: &[Raw], options: &ImportOptions) -> String {
 }
 
 /// Scale and rotation; a coordinate that is no longer finite comes back.
-fn place(points: &mut [[f64; 3]], options: &ImportOptions) -> Result<(), f64> {
+fn place(points: &mut [[f64; 3]], scale: f64, up: Up) -> Result<(), f64> {
     for point in points {
-        *point = options.up.rotate(point.map(|c| c * options.scale));
+        *point = up.rotate(point.map(|c| c * scale));
         if let Some(&bad) = point.iter().find(|c| !c.is_finite()) {
             return Err(bad);
         }
@@ -214,11 +215,9 @@ fn place(points: &mut [[f64; 3]], options: &ImportOptions) -> Result<(), f64> {
     Ok(())
 }
 
-fn beyond(origin: &str, what: &str, value: f64, options: &ImportOptions) -> InputError {
-    let message = format!(
-        "{origin}: {what:?} has the coordinate {value} after multiplication by {}",
-        options.scale
-    );
+fn beyond(origin: &str, what: &str, value: f64, scale: f64) -> InputError {
+    let message =
+        format!("{origin}: {what:?} has the coordinate {value} after multiplication by {scale}");
     InputError::at(JsonPath::root(), message)
         .hint("look for damaged coordinates, or choose a smaller scale")
 }

@@ -14,6 +14,8 @@ pub enum Format {
     Compas,
     /// Wavefront OBJ.
     Obj,
+    /// Drawing exchange format (ASCII), closed outlines.
+    Dxf,
     /// Polygon file format (Stanford).
     Ply,
     /// Stereolithography.
@@ -27,6 +29,7 @@ impl fmt::Display for Format {
         f.write_str(match self {
             Format::Compas => "COMPAS JSON",
             Format::Obj => "OBJ",
+            Format::Dxf => "DXF",
             Format::Ply => "PLY",
             Format::Stl => "STL",
             Format::Grains => "grains",
@@ -46,6 +49,7 @@ impl Format {
             .or(match extension.as_deref() {
                 Some("json") => Some(Format::Compas),
                 Some("obj") => Some(Format::Obj),
+                Some("dxf") => Some(Format::Dxf),
                 Some("ply") => Some(Format::Ply),
                 Some("stl") => Some(Format::Stl),
                 Some("csv" | "dump" | "liggghts" | "lammpstrj") => Some(Format::Grains),
@@ -54,7 +58,7 @@ impl Format {
             .or_else(|| Format::by_content(bytes))
             .ok_or_else(|| {
                 InputError::at(JsonPath::root(), "the format is unknown from both the extension and the content")
-                    .hint("known formats are COMPAS JSON, OBJ, PLY, STL, and tables or dumps of grains; name the file .json, .obj, .ply, .stl, .csv or .dump")
+                    .hint("known formats are COMPAS JSON, OBJ, DXF, PLY, STL, and tables or dumps of grains; name the file .json, .obj, .dxf, .ply, .stl, .csv or .dump")
             })
     }
 
@@ -67,6 +71,11 @@ impl Format {
             Some(Format::Grains)
         } else if text.starts_with(b"{") || text.starts_with(b"[") {
             Some(Format::Compas)
+        } else if text.starts_with(b"AutoCAD Binary DXF")
+            || (text.starts_with(b"0")
+                && split(text).nth(1).is_some_and(|l| l.trim_ascii() == b"SECTION"))
+        {
+            Some(Format::Dxf)
         } else if text.starts_with(b"ply\n") || text.starts_with(b"ply\r") {
             Some(Format::Ply)
         } else if stl::looks_like(bytes) || stl::looks_like(text) {

@@ -160,10 +160,12 @@ fn missing(e: io::Error) -> InputError {
 fn load(file: &File, name: &str) -> Result<(Mesh, Vec<Finding>), InputError> {
     let bytes = limits::read_opened(file, limits::PER_FOREIGN_BYTE)?;
     let error = |text: String, hint: &str| Err(InputError::at(JsonPath::root(), text).hint(hint));
-    if Format::of(Path::new(name), &bytes, None)? == Format::Compas {
+    let format = Format::of(Path::new(name), &bytes, None)?;
+    if !matches!(format, Format::Obj | Format::Ply | Format::Stl) {
+        let what = if format == Format::Compas { "JSON".into() } else { format.to_string() };
         return error(
-            "this is JSON, not a mesh".into(),
-            "name an OBJ, PLY or STL file; `voussoir import` reads COMPAS JSON",
+            format!("this is {what}, not a mesh"),
+            "name an OBJ, PLY or STL file; `voussoir import` makes scenes of other files",
         );
     }
     let raw = read(name, &bytes, false, &Default::default())?;

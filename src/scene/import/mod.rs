@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | COMPAS JSON | Assembly, CRA_Assembly, BlockModel, lists of meshes; versions 0.x, 1 and 2 | a node of the graph, an element, a mesh |
 //! | OBJ | polygons as they are, objects and groups | an object, else a group, else a connected part |
+//! | DXF | ASCII, closed polylines of plane drawings | an outline, given a depth |
 //! | PLY | ASCII and binary, both byte orders | a file |
 //! | STL | ASCII and binary | a `solid`, a binary file |
 //! | grains | tables (CSV), dumps of LIGGGHTS and LAMMPS | a sphere, a clump of them |
@@ -20,6 +21,7 @@
 //! [`ImportOptions::scale`] × coordinates of the file.
 
 mod compas;
+mod dxf;
 mod finish;
 mod format;
 mod grains;
@@ -159,6 +161,7 @@ fn read(
         let mut raw = match format {
             Format::Compas => compas::read(bytes),
             Format::Obj => obj::read(bytes, &stem),
+            Format::Dxf => dxf::read(bytes, options),
             Format::Ply => ply::read(bytes, &stem),
             Format::Stl => stl::read(bytes, &stem),
             Format::Grains => grains::read(bytes),

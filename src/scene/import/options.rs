@@ -19,8 +19,13 @@ pub struct ImportOptions {
     pub friction: Option<Friction>,
     /// Density of every block, kg/m³, in place of what the file says.
     pub density: Option<f64>,
-    /// Multiplies the coordinates: 0.001 for a file in millimetres.
-    pub scale: f64,
+    /// Thickness of the blocks of a plane drawing (DXF), m in the scene.
+    pub depth: Option<f64>,
+    /// Layers of a drawing (DXF) whose blocks are supports.
+    pub support_layers: Vec<String>,
+    /// Multiplies the coordinates: 0.001 for a file in millimetres. Where nothing is said, the unit that
+    /// the file names, or metres.
+    pub scale: Option<f64>,
     /// The axis of the file that points up.
     pub up: Up,
     /// The format, where extension and content do not tell it.
@@ -43,7 +48,9 @@ impl Default for ImportOptions {
             support_files: Vec::new(),
             friction: None,
             density: None,
-            scale: 1.0,
+            depth: None,
+            support_layers: Vec::new(),
+            scale: None,
             up: Up::Z,
             format: None,
             gap: None,
@@ -96,12 +103,20 @@ impl ImportOptions {
                 .hint(hint))
         };
         let positive = |x: f64| x.is_finite() && x > 0.0;
-        if !positive(self.scale) {
+        if let Some(scale) = self.scale.filter(|&s| !positive(s)) {
             return refuse(
                 "scale",
-                self.scale,
+                scale,
                 "finite and > 0",
                 "0.001 for a file in millimetres; use `up` to turn the structure",
+            );
+        }
+        if let Some(depth) = self.depth.filter(|&d| !positive(d)) {
+            return refuse(
+                "depth",
+                depth,
+                "finite and > 0",
+                "the thickness of a drawing's blocks in m",
             );
         }
         if let Some(density) = self.density.filter(|&d| !positive(d)) {

@@ -1,5 +1,6 @@
 //! What the readers of all formats hand over: blocks and interfaces in the coordinates of the file.
 
+use super::ImportOptions;
 use crate::{InterfaceSpec, Material};
 use base::{
     error::{Finding, FindingCode},
@@ -16,6 +17,8 @@ pub(super) struct Raw {
     pub name: String,
     /// File name and format, for `source`.
     pub origin: String,
+    /// Metres in a unit of the file, where it names one.
+    pub unit: Option<f64>,
     pub blocks: Vec<Solid>,
     pub grains: Vec<Grain>,
     pub interfaces: Vec<InterfaceSpec>,
@@ -50,6 +53,11 @@ pub(super) struct Grain {
 }
 
 impl Raw {
+    /// What its coordinates are multiplied by.
+    pub fn scale(&self, options: &ImportOptions) -> f64 {
+        options.scale.or(self.unit).unwrap_or(1.0)
+    }
+
     pub fn say(&mut self, code: FindingCode, text: impl Into<String>) {
         self.findings.push(Finding::new(code, text));
     }

@@ -3,6 +3,7 @@
 
 mod bad;
 mod compas;
+mod dxf;
 mod mesh_formats;
 mod options;
 mod real;

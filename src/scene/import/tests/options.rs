@@ -72,7 +72,7 @@ fn a_support_that_is_not_there_is_an_error_with_the_names_there_are() {
 #[test]
 fn scale_and_height_are_in_the_units_of_the_scene() {
     let imported = with(ImportOptions {
-        scale: 0.001,
+        scale: Some(0.001),
         support_below: Some(0.002),
         ..ImportOptions::default()
     })
@@ -115,7 +115,7 @@ fn normals_of_stored_interfaces_turn_with_the_blocks_and_do_not_scale() {
     let node = |z: f64| serde_json::json!({"block": compas_mesh([0.0, 0.0, z])});
     let text =
         serde_json::json!({"graph": {"node": {"0": node(0.0), "1": node(3.0)}, "edge": {"0": {"1": {"interfaces": [seam]}}}}}).to_string();
-    let options = ImportOptions { up: Up::Y, scale: 10.0, ..ImportOptions::default() };
+    let options = ImportOptions { up: Up::Y, scale: Some(10.0), ..ImportOptions::default() };
     let imported = import_bytes("x.json", text.as_bytes(), &options).expect("fine");
     assert_eq!(imported.scene.interfaces[0].normal, Some([0.0, -1.0, 0.0]));
     assert_eq!(
@@ -155,9 +155,9 @@ fn friction_density_and_gap_go_into_the_scene() {
 fn options_out_of_range_are_refused_before_reading() {
     let d = ImportOptions::default;
     for (options, word) in [
-        (ImportOptions { scale: 0.0, ..d() }, "scale"),
-        (ImportOptions { scale: -1.0, ..d() }, "scale"),
-        (ImportOptions { scale: f64::NAN, ..d() }, "scale"),
+        (ImportOptions { scale: Some(0.0), ..d() }, "scale"),
+        (ImportOptions { scale: Some(-1.0), ..d() }, "scale"),
+        (ImportOptions { scale: Some(f64::NAN), ..d() }, "scale"),
         (ImportOptions { density: Some(-1.0), ..d() }, "density"),
         (ImportOptions { gap: Some(-1.0), ..d() }, "gap"),
         (ImportOptions { support_below: Some(f64::NAN), ..d() }, "support below"),
@@ -167,7 +167,8 @@ fn options_out_of_range_are_refused_before_reading() {
             import_file(Path::new("no such file"), &options).expect_err("refused").to_string();
         assert!(error.starts_with(word) && error.contains("hint:"), "{error}");
     }
-    let error = with(ImportOptions { scale: 1e308, ..d() }).expect_err("overflow").to_string();
+    let error =
+        with(ImportOptions { scale: Some(1e308), ..d() }).expect_err("overflow").to_string();
     assert!(error.contains("inf") && error.contains("hint:"), "{error}");
 }
 

@@ -1,0 +1,68 @@
+"""Write the drawings that the tests of importers read, with a writer that is not ours: ``python make.py``,
+with ezdxf installed (1.4)."""
+
+import math
+from pathlib import Path
+
+import ezdxf
+from ezdxf import units
+
+HERE = Path(__file__).resolve().parent
+
+
+def drawing(version: str, unit: int):
+    doc = ezdxf.new(version)
+    doc.units = unit
+    for name in ("STONE", "GROUND"):
+        doc.layers.add(name)
+    return doc, doc.modelspace()
+
+
+def box(space, x: float, y: float, wide: float, high: float, layer: str, close: bool = True) -> None:
+    corners = [(x, y), (x + wide, y), (x + wide, y + high), (x, y + high)]
+    attributes = {"layer": layer}
+    if space.doc.dxfversion == "AC1009":
+        space.add_polyline2d(corners, close=close, dxfattribs=attributes)
+    else:
+        space.add_lwpolyline(corners, close=close, dxfattribs=attributes)
+
+
+def wall(space, size: float) -> None:
+    """Three courses of bricks of 2 x 1 on a base, half a brick of bond."""
+    box(space, 0, -size, 8 * size, size, "GROUND")
+    for course in range(3):
+        for k in range(3):
+            box(space, (course % 2 + 2 * k) * size, course * size, 2 * size, size, "STONE")
+
+
+def arch(space, voussoirs: int = 9, inner: float = 4.0, outer: float = 5.0) -> None:
+    """A semicircular arch whose faces are arcs."""
+    step = math.pi / voussoirs
+    bulge = math.tan(step / 4)
+    for k in range(voussoirs):
+        a, b = k * step, (k + 1) * step
+        at = lambda r, t: (r * math.cos(t), r * math.sin(t))
+        corners = [(*at(inner, b), -bulge), (*at(inner, a), 0), (*at(outer, a), bulge), (*at(outer, b), 0)]
+        space.add_lwpolyline(corners, format="xyb", close=True, dxfattribs={"layer": "STONE"})
+    for side in (-1, 1):
+        box(space, min(side * inner, side * outer), -1, outer - inner, 1, "GROUND")
+
+
+for name, version, unit, draw in [
+    ("wall-2010-mm.dxf", "R2010", units.MM, lambda s: wall(s, 200)),
+    ("wall-r12.dxf", "R12", 0, lambda s: wall(s, 0.2)),
+    ("arch-2018-m.dxf", "R2018", units.M, arch),
+]:
+    doc, space = drawing(version, unit)
+    draw(space)
+    doc.saveas(HERE / name)
+
+# A brick left open, one drawn twice, what is no block.
+doc, space = drawing("R2000", units.CM)
+wall(space, 20)
+box(space, 300, 0, 40, 20, "STONE", close=False)
+box(space, 0, 0, 40, 20, "STONE")
+space.add_text("section A-A")
+space.add_line((0, 0), (160, 0))
+space.add_hatch().paths.add_polyline_path([(0, 0), (40, 0), (40, 20)])
+doc.saveas(HERE / "faults-2000-cm.dxf")
