@@ -116,7 +116,7 @@ pub fn again(
         // One end after the other: both in one come with the geometric safety factor.
         Question::Thrust(o) => {
             let end = |greatest| {
-                let one = ThrustOptions { law, greatest, range: false, ..o.clone() };
+                let one = ThrustOptions { law, greatest, range: false, require: None, ..o.clone() };
                 match ask(&Question::Thrust(one), scene) {
                     Some(Answer::Thrust(t)) => Some(*t),
                     _ => None,

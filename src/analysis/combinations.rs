@@ -9,7 +9,7 @@ use super::{
 use base::error::{InputError, JsonPath};
 use check::{proof::combinations, question::CombinationsOptions};
 use cholesky::parallel;
-use model::interface::Model;
+use model::{assembly::resolve_blocks, interface::Model};
 use scene::Scene;
 
 /// Asks in every combination, on as many threads as there are processors; the answers do not depend
@@ -26,10 +26,11 @@ pub fn combined(
 ) -> Result<Combined, InputError> {
     let places = combinations::asked(o, scene)?;
     let question = o.question(scene);
+    let blocks = resolve_blocks(scene)?;
     let list = parallel::try_map(0, &places, |&k| {
         let name = scene.combinations[k].name.clone();
         let scene = scene.in_combination(&name)?;
-        let model = model.alike(&scene)?;
+        let model = model.of_blocks(&scene, blocks.clone())?;
         let answer = ask(&question, &scene, &model, control)?;
         let file = of(&question, &scene, &model, &answer)?;
         Ok(InCombination { name, model, answer, file })

@@ -253,6 +253,10 @@ fn protocol(args: &Repose) -> anyhow::Result<Protocol> {
                 "{key}: not a value of a protocol; the values are grain, elongation, corners, grains, diameter, sizes, friction, wall_friction, rolling_arm, rolling_friction, restitution, density, size, rate, pressure, drop, floor"
             );
         };
+        let number = place.is_number() && key != "rate";
+        if number && text.parse::<f64>().is_ok_and(|v| !v.is_finite()) {
+            bail!("{key}: {text} is not a finite number; friction of 1 is rough already");
+        }
         *place = serde_json::from_str(text).unwrap_or_else(|_| Value::from(text.as_str()));
     }
     let protocol: Protocol = serde_json::from_value(value).with_context(|| {

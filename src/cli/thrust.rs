@@ -3,7 +3,7 @@
 use super::{
     args::Thrust,
     exit::Exit,
-    question::{Session, unless_weaker, verdict},
+    question::{Session, requirement, unless_weaker, verdict},
     terminal::{self, Terminal},
 };
 use voussoir::analysis::{Outcome, ThrustOptions, thrust::bearing_supports};
@@ -18,6 +18,7 @@ pub fn run(args: &Thrust, terminal: &Terminal) -> anyhow::Result<Exit> {
         member: args.member.clone(),
         greatest: false,
         range: true,
+        require: args.require,
     }
     .into();
     let supports = bearing_supports(&session.model);
@@ -34,6 +35,10 @@ pub fn run(args: &Thrust, terminal: &Terminal) -> anyhow::Result<Exit> {
     let answer = session.ask(&question)?;
     let file = session.answer(terminal, session.result(&question, &answer)?)?;
     let Some(found) = file.answer.thrust() else { return Ok(verdict(file.answer.verdict())) };
+    if file.required.is_some() {
+        let exit = requirement(&file);
+        return Ok(unless_weaker(&file, exit));
+    }
     let open = [found.least.status, found.greatest.status].contains(&Outcome::Undecided);
     Ok(unless_weaker(&file, if open { Exit::Undecided } else { Exit::Yes }))
 }

@@ -15,6 +15,8 @@ pub struct Requirements {
     pub tilt_deg: Option<f64>,
     /// Load factor α0 of an earthquake.
     pub alpha_0: Option<f64>,
+    /// Geometric safety factor of an arch or wall.
+    pub geometric_factor: Option<f64>,
     /// Share of the earthquake of the site, ζ_E: what the mechanism has over what is demanded.
     pub site: Option<f64>,
 }

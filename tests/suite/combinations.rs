@@ -4,9 +4,13 @@
 use crate::ask::{asked, cuboid, edits_are_refused, fixed, leaves_hold, model};
 use serde_json::{Value, json};
 use voussoir::{
-    analysis::{CombinationsOptions, KinematicOptions, LimitOptions, MeetOptions, Question},
+    analysis::{
+        CombinationsOptions, KinematicOptions, LimitOptions, MeetOptions, Question, ThrustOptions,
+    },
     interface::prepare,
-    proof::{Answer, ResultFile, combinations::CombinationsAnswer, meet::MeetAnswer},
+    proof::{
+        Answer, ResultFile, answer::Quantity, combinations::CombinationsAnswer, meet::MeetAnswer,
+    },
     question::Verification,
     scene::{Scene, preset::PRESETS, read_str, vehicle::vehicles},
 };
@@ -396,6 +400,33 @@ fn what_the_scene_requires_is_told() {
         let own = LimitOptions { require: Some(0.02), ..LimitOptions::default() };
         assert_eq!(self::file(&read(&scene), own.into()).required.unwrap().least, 0.02);
     }
+}
+
+/// Of a thrust it is the geometric safety factor, 1.1243 of this arch: proved on either side.
+#[test]
+fn a_geometric_safety_factor_may_be_required() {
+    let mut scene: Value =
+        serde_json::from_str(include_str!("../../structures/semicircular-arch-thick.json"))
+            .expect("a scene");
+    let question = |require| -> Question {
+        ThrustOptions { range: true, require, ..ThrustOptions::default() }.into()
+    };
+    for (least, wanted) in [(1.1, Some(true)), (1.2, Some(false))] {
+        let own = file(&read(&scene), question(Some(least)));
+        scene["require"] = json!({ "geometric_factor": least });
+        let of_scene = file(&read(&scene), question(None));
+        for r in [own, of_scene].map(|f| f.required.expect("something is required")) {
+            assert_eq!((r.quantity, r.least, r.met), (Quantity::GeometricFactor, least, wanted));
+            close("the factor", r.obtained.expect("a factor"), 1.1243, 1e-4);
+        }
+    }
+    scene["require"] = json!({});
+    scene["loads"] = json!({ "dead": [ { "acceleration": [8, 0, 0] } ] });
+    let falls = file(&read(&scene), question(Some(1.0)));
+    assert_eq!(falls.required.and_then(|r| r.met), Some(false));
+    let idle = ThrustOptions { require: Some(2.0), ..ThrustOptions::default() };
+    let refused = Question::from(idle).check().expect_err("a thrust alone has no factor");
+    assert!(refused.to_string().contains("range"), "{refused}");
 }
 
 #[test]

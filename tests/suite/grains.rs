@@ -410,6 +410,10 @@ fn values_out_of_range_are_refused_with_their_place() {
     assert!(low.contains("drop: must be at least 1.26, got 1"), "{low}");
     assert!(bad(|p| (p.grain, p.elongation) = (GrainKind::Clump, 2.5)).contains("elongation"));
     assert!(bad(|p| (p.grain, p.corners) = (GrainKind::Hull, 3)).contains("corners"));
+    let still = bad(|p| (p.kind, p.rate) = (ProtocolKind::Drum, Some(0.0)));
+    assert!(still.contains("rate: must be > 0, got 0") && still.contains("degrees"), "{still}");
+    let light = bad(|p| (p.kind, p.pressure) = (ProtocolKind::Shear, 0.0));
+    assert!(light.contains("pressure: must be > 0") && light.contains("ρ g d"), "{light}");
     assert!(bad(|p| (p.grain, p.rolling_arm) = (GrainKind::Hull, 0.1)).contains("rolling_arm"));
 }
 

@@ -1082,12 +1082,13 @@ class Required(Record):
 
     Attributes
     ----------
-    quantity : {"load_factor", "tilt_deg", "alpha0", "site"}
+    quantity : {"load_factor", "tilt_deg", "alpha0", "geometric_factor", "site"}
         Of what.
 
         * ``load_factor``: A load factor λ.
         * ``tilt_deg``: A tilt, degrees.
         * ``alpha0``: The load factor α0 of an earthquake.
+        * ``geometric_factor``: The geometric safety factor.
         * ``site``: ζ_E, the share of the earthquake of the site.
 
     least : float
@@ -1098,7 +1099,7 @@ class Required(Record):
         Whether it is reached; absent where that is open.
     """
 
-    quantity: Literal["load_factor", "tilt_deg", "alpha0", "site"]
+    quantity: Literal["load_factor", "tilt_deg", "alpha0", "geometric_factor", "site"]
     least: float
     obtained: float | None
     met: bool | None
@@ -2374,8 +2375,8 @@ class MeetKeys(Keys):
     _place = "meet"
     vary: str = field("""str: JSON pointer of the number that varies.""")
     between: tuple[float, float] = field("""two numbers: The range.""")
-    requirement: tuple[Literal["load_factor", "tilt_deg", "alpha0", "site"], float] | None = field("""tuple of {"load_factor", "tilt_deg", "alpha0", "site"} and float or None: What is
-    required, of what.
+    requirement: tuple[Literal["load_factor", "tilt_deg", "alpha0", "geometric_factor", "site"], float] | None = field("""tuple of {"load_factor", "tilt_deg", "alpha0", "geometric_factor", "site"} and float
+    or None: What is required, of what.
     """, key="required")
     changes: list[MeetChange] = field("""list of MeetChange: The changes, in the order of the scan.""")
     throughout: bool | None = field("""bool or None: Without a change: whether it is met throughout; absent where that is open.""")

@@ -461,6 +461,7 @@ def thrust(
     support: str | None = None,
     direction: Vector | None = None,
     member: str | None = None,
+    require: float | None = None,
     law: Law = "coulomb",
     keep_all: bool = False,
     time_limit: float | None = None,
@@ -478,6 +479,9 @@ def thrust(
         Outwards from the blocks' centre of mass where none is given.
     member : str, optional
         Id of a member: the force in it in place of a thrust.
+    require : float, optional
+        A geometric safety factor below this is not enough: ``answer.required`` says whether it is
+        met.
     law : {"coulomb", "associative"}
         How joints slide: dry friction, or opening by friction times slip; the second finds the
         bound alone, and is faster.
@@ -513,7 +517,7 @@ def thrust(
     >>> round(answer.least.value), round(answer.greatest.value)
     (1839, 2519)
     """
-    options: dict[str, Any] = {"law": law, "range": True}
+    options: dict[str, Any] = {"law": law, "range": True, **_given(require=require)}
     if support is not None:
         options["support"] = support
     if direction is not None:

@@ -2685,6 +2685,8 @@ class Requirements(Value):
         Tilt, degrees.
     alpha_0 : float, optional
         Load factor α0 of an earthquake.
+    geometric_factor : float, optional
+        Geometric safety factor of an arch or wall.
     site : float, optional
         Share of the earthquake of the site, ζ_E: what the mechanism has over what is demanded.
 
@@ -2701,6 +2703,7 @@ class Requirements(Value):
     load_factor: float | None = None
     tilt_deg: float | None = None
     alpha_0: float | None = None
+    geometric_factor: float | None = None
     site: float | None = None
 
 

@@ -390,6 +390,8 @@ pub enum Quantity {
     TiltDeg,
     /// The load factor α0 of an earthquake.
     Alpha0,
+    /// The geometric safety factor.
+    GeometricFactor,
     /// ζ_E, the share of the earthquake of the site.
     Site,
 }
@@ -416,6 +418,9 @@ impl Required {
             let value = answer.load_factor().and_then(|l| l.value);
             let obtained = match quantity {
                 Quantity::TiltDeg => value.map(|v| v.atan().to_degrees()),
+                Quantity::GeometricFactor => {
+                    geometric_factor(answer).map(|f| f.value.unwrap_or(f.lower))
+                }
                 _ => value,
             };
             Self { quantity, least, obtained, met }
@@ -450,6 +455,7 @@ fn least(question: &Question, scene: &Scene) -> Option<(Quantity, f64)> {
         }
         Question::Tilt(_) | Question::Repose(_) => (Quantity::TiltDeg, r.tilt_deg),
         Question::Kinematic(_) => (Quantity::Alpha0, r.alpha_0),
+        Question::Thrust(o) if o.range => (Quantity::GeometricFactor, r.geometric_factor),
         _ => return None,
     };
     question.require().or(usual).map(|least| (quantity, least))
@@ -495,6 +501,10 @@ pub fn holds(question: &Question, scene: &Scene, answer: &Answer) -> Option<bool
     }
 }
 
+fn geometric_factor(answer: &Answer) -> Option<super::thrust::Factor> {
+    answer.thrust()?.geometric_factor
+}
+
 /// The same by the question's own quantity.
 fn reaches(question: &Question, answer: &Answer, require: Option<f64>) -> Option<bool> {
     if let Answer::State(a) = answer {
@@ -507,6 +517,14 @@ fn reaches(question: &Question, answer: &Answer, require: Option<f64>) -> Option
             (_, Some(_)) => None,
             (Some(l), None) if l.end == PathEnd::Open => None,
             (_, None) => Some(true),
+        };
+    }
+    if let (Question::Thrust(_), Some(least)) = (question, require) {
+        return match geometric_factor(answer) {
+            Some(f) if f.lower >= least => Some(true),
+            Some(f) if f.upper.is_some_and(|u| u < least) => Some(false),
+            Some(_) => None,
+            None => (answer.verdict() == Some(Verdict::Unstable)).then_some(false),
         };
     }
     let said = answer.load_factor()?;

@@ -8,6 +8,7 @@ use super::{
     told::Told,
 };
 use crate::{question::CombinationsOptions, verdict::exact::Grade};
+use model::assembly::resolve_blocks;
 use scene::{MaterialFactors, Scene};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -113,12 +114,13 @@ pub(super) fn derive(
         d.part("combinations", failure(text));
     }
     let question = o.question(scene);
+    let blocks = resolve_blocks(scene).map_err(|e| e.to_string())?;
     let mut list = Vec::new();
     for (&k, own) in places.iter().zip(&e.list) {
         let name = &scene.combinations[k].name;
         let make = || -> Result<_, base::error::InputError> {
             let there = scene.in_combination(name)?;
-            let model = model.alike(&there)?;
+            let model = model.of_blocks(&there, blocks.clone())?;
             Ok((there.factors()?, there, model))
         };
         let (factors, there, model) = make().map_err(|e| format!("{name}: {e}"))?;

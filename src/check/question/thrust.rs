@@ -27,19 +27,27 @@ pub struct ThrustOptions {
     /// such key.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub range: bool,
+    /// Geometric safety factor below which the answer counts as failure; asked with `range`.
+    pub require: Option<f64>,
 }
 
 impl Asked for ThrustOptions {
     fn check(&self, path: &JsonPath) -> Result<(), InputError> {
-        match self.member.is_some() && self.support.is_some() {
-            true => {
-                Err(InputError::at(path.key("member"), "a member and a support are both given"))
-            }
-            false => Ok(()),
+        if self.member.is_some() && self.support.is_some() {
+            return Err(InputError::at(
+                path.key("member"),
+                "a member and a support are both given",
+            ));
         }
+        if self.require.is_some() && !self.range {
+            let text = "what is required of a thrust is its geometric safety factor";
+            return Err(InputError::at(path.key("require"), text)
+                .hint("remove it, or ask for the factor as well by \"range\": true"));
+        }
+        Ok(())
     }
 
-    chosen!(law);
+    chosen!(law, require);
 
     fn quantity(&self) -> Option<&'static str> {
         Some(match (self.member.is_some(), self.greatest) {
@@ -56,6 +64,6 @@ impl Asked for ThrustOptions {
     }
 
     fn for_one_number(self) -> Self {
-        Self { range: false, ..self }
+        Self { range: false, require: None, ..self }
     }
 }

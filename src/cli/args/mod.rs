@@ -447,6 +447,9 @@ pub struct Thrust {
     /// The member is a tie, strut, bar, tendon, dowel, strip (`strip/1`), soil or grip.
     #[arg(long, value_name = "ID", conflicts_with = "support")]
     pub member: Option<String>,
+    /// Required geometric safety factor: exit code 1 if it is lower, 3 if undecided.
+    #[arg(long, value_name = "FACTOR", value_parser = finite)]
+    pub require: Option<f64>,
 }
 
 /// What every question takes.

@@ -1,7 +1,7 @@
 //! Scene → assembly → interfaces, timed.
 
 use super::{ContactFrame, Interface, Interfaces, axes, detect, detect_until, floating, tally};
-use crate::assembly::{self, AppliedForce, Assembly, Member};
+use crate::assembly::{self, AppliedForce, Assembly, Blocks, Member};
 use base::error::{Finding, FindingCode, InputError};
 use nalgebra::Vector3;
 use scene::Scene;
@@ -61,7 +61,15 @@ impl Model {
     /// # Errors
     /// The scene cannot be resolved.
     pub fn alike(&self, scene: &Scene) -> Result<Self, InputError> {
-        let assembly = assembly::resolve(scene)?;
+        self.of_blocks(scene, assembly::resolve_blocks(scene)?)
+    }
+
+    /// The same where the blocks of the scene are known, too: combinations have them in common.
+    ///
+    /// # Errors
+    /// As [`Self::alike`].
+    pub fn of_blocks(&self, scene: &Scene, blocks: Blocks) -> Result<Self, InputError> {
+        let assembly = assembly::resolve_with(scene, blocks)?;
         let interfaces = self.interfaces.with_joints_of(&assembly)?;
         Ok(Self::new(assembly, interfaces))
     }

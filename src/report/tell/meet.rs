@@ -54,6 +54,9 @@ fn required(a: &MeetAnswer) -> String {
         Some((Quantity::LoadFactor, least)) => format!("λ ≥ {}", short(least)),
         Some((Quantity::TiltDeg, least)) => format!("a tilt of {}°", short(least)),
         Some((Quantity::Alpha0, least)) => format!("α0 ≥ {}", short(least)),
+        Some((Quantity::GeometricFactor, least)) => {
+            format!("a geometric safety factor of {}", short(least))
+        }
         Some((Quantity::Site, least)) => format!("ζ_E ≥ {}", short(least)),
         None => "what is required".into(),
     }

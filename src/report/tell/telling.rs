@@ -80,6 +80,7 @@ pub(super) fn keep(again: &str) -> [(String, &'static str); 2] {
 pub(super) fn words_of(required: Required) -> String {
     let what = match required.quantity {
         Quantity::LoadFactor | Quantity::Alpha0 => short(required.least),
+        Quantity::GeometricFactor => format!("geometric safety factor {}", short(required.least)),
         Quantity::TiltDeg => format!("{}°", short(required.least)),
         Quantity::Site => format!("ζ_E {}", short(required.least)),
     };

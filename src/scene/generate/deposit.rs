@@ -70,8 +70,16 @@ fn check(p: &Protocol) -> Result<(), InputError> {
         ));
     }
     place.length("diameter", p.diameter)?;
-    place.length("density", p.density)?;
-    place.length("rate", p.rate())?;
+    let positive = |field: &str, value: f64, unit: &str| match value.is_finite() && value > 0.0 {
+        true => Ok(()),
+        false => Err(place.error(field, format!("must be > 0, got {value}"), unit)),
+    };
+    positive("density", p.density, "kg/m³")?;
+    positive("rate", p.rate(), "√(g d), or degrees per √(d/g) of a drum or a bed that is tilted")?;
+    if p.kind == ProtocolKind::Shear {
+        let hint = "the lid of a shear box presses on the grains, in ρ g d; 10 is the default";
+        positive("pressure", p.pressure, hint)?;
+    }
     let between = |field: &str, value: f64, most: f64| {
         let hint = "see `voussoir repose --help`";
         if (0.0..=most).contains(&value) {

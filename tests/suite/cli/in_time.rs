@@ -267,5 +267,7 @@ fn repose_answers_both_questions() {
     expect(USAGE, voussoir(&["repose", "heap", "--question", "repose"]));
     expect(USAGE, voussoir(&["repose", "drain", "grain=30", "--question", "repose"]));
     expect(USAGE, voussoir(&["repose", "drain", "grains=-1", "--question", "repose"]));
+    let rough = voussoir(&["repose", "drain", "friction=inf", "--question", "repose"]);
+    assert!(err(&expect(USAGE, rough)).contains("friction: inf is not a finite number"));
     expect(USAGE, voussoir(&["repose", &pile, "grains=30"]));
 }
