@@ -222,9 +222,7 @@ fn with_normals(model: &Model, control: &Control, near: &mut Option<Passed>) -> 
         }
         // Without a value the bracket is as wide as can be.
         let value = answer.value.map_or(0.0, f64::abs);
-        if answer.bracket.is_narrow(
-            tolerance::LOAD_FACTOR_WIDTH * value + tolerance::LOAD_FACTOR_FLOOR * natural,
-        ) {
+        if answer.bracket.is_narrow(claim::width(value, natural)) {
             let mut proved = answer.clone();
             if prove(model, control, &mut proved, natural, &mut inside) {
                 answer = proved;
@@ -266,7 +264,7 @@ fn prove(
     let Model { assembly, interfaces, .. } = model;
     let Some(value) = answer.value else { return false };
     let k = certificate::kinematics(model, &answer.rates, &answer.forces);
-    let width = tolerance::LOAD_FACTOR_WIDTH * value.abs() + tolerance::LOAD_FACTOR_FLOOR * natural;
+    let width = claim::width(value, natural);
     let mut moved = motion::motion(model, &answer.rates);
     let is_proof = |m: &MotionProof| m.is_admissible() && m.gain().lower.is_finite();
     if !moved.as_ref().is_some_and(is_proof)
@@ -284,6 +282,7 @@ fn prove(
     }
     let upper = |forces: &Forces, rates: &[Rate]| {
         claim::upper_bound(moved, || certificate::kinematics(model, rates, forces).upper())
+            + tolerance::LOAD_FACTOR_ELSEWHERE * width
     };
     answer.bracket.upper = upper(&answer.forces, &answer.rates);
     let start = value.min(answer.bracket.upper);
@@ -346,7 +345,7 @@ pub(super) fn carried(
         let natural = claim::natural_factor(&model.assembly);
         let proved = prove(model, control, &mut answer, natural, &mut None);
         let value = answer.value.map_or(0.0, f64::abs);
-        let width = tolerance::LOAD_FACTOR_WIDTH * value + tolerance::LOAD_FACTOR_FLOOR * natural;
+        let width = claim::width(value, natural);
         if !proved || !answer.bracket.is_narrow(width) {
             return None;
         }
@@ -489,10 +488,7 @@ pub fn attempt(model: &Model, way: &Formulation) -> LoadFactor {
         &mut answer,
     );
     let value = answer.value.map_or(0.0, f64::abs);
-    if answer.bracket.is_narrow(
-        tolerance::LOAD_FACTOR_WIDTH * value
-            + tolerance::LOAD_FACTOR_FLOOR * claim::natural_factor(assembly),
-    ) {
+    if answer.bracket.is_narrow(claim::width(value, claim::natural_factor(assembly))) {
         answer.outcome = Outcome::Found;
     }
     answer

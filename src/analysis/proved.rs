@@ -14,7 +14,8 @@ use check::verdict::{
     thrust::{MemberAt, Sought},
 };
 use model::interface::Model;
-use std::{ops::Deref, time::Instant};
+use solve::clock::Instant;
+use std::ops::Deref;
 
 /// What claims something about a scene, with the evidence for it.
 pub trait Claims {

@@ -34,7 +34,8 @@ use scene::{
 };
 use seen::{Recorder, SHEARED, Seen};
 use serde::{Deserialize, Serialize};
-use std::{collections::BTreeMap, ops::ControlFlow, time::Instant};
+use solve::clock::Instant;
+use std::{collections::BTreeMap, ops::ControlFlow};
 
 /// A stage may take so many √(d/g) to come to rest.
 const HORIZON: f64 = 400.0;

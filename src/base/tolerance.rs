@@ -68,6 +68,18 @@ pub const LOAD_FACTOR_WIDTH: f64 = 1e-6;
 /// load); it decides where λ is zero.
 pub const LOAD_FACTOR_FLOOR: f64 = 1e-10;
 
+/// The upper end that is claimed of a load factor lies beyond the proved one by this share of the width
+/// above (1e-13 × |λ|): templates are drawn with sines, whose last bits are others on another machine
+/// (3e-15 × λ between x86-64 and WebAssembly, an arch of 27 voussoirs), and what it proves there is to hold
+/// the claim as well. Larger: wider brackets for nothing. Smaller: honest results of another machine are
+/// refused.
+pub const LOAD_FACTOR_ELSEWHERE: f64 = 1e-7;
+
+/// Blocks of a mechanism whose speeds differ by less than this × the fastest are equally fast, and come in
+/// the order of the scene. Larger: slower blocks before faster ones. Smaller: last bits, which are others on
+/// another machine, decide.
+pub const SAME_SPEED: f64 = 1e-9;
+
 /// Friction cones are respected when no force lies further outside its own than this × itself: a
 /// large force elsewhere makes no room. Larger: forged certificates pass. Smaller: rounding of a
 /// correct force (1e-16) written to a file fails.

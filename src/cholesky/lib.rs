@@ -4,6 +4,9 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+#[cfg(target_arch = "wasm32")]
+extern crate faer32 as faer;
+
 mod dissection;
 mod fronts;
 #[cfg(feature = "threads")]
@@ -62,9 +65,9 @@ pub struct Cholesky {
 /// How many threads factor a matrix of so many rows. Subtrees and parts of products are shared out,
 /// sums are not: the same bits on any number.
 fn threads(rows: usize) -> Par {
-    #[cfg(feature = "threads")]
+    #[cfg(all(feature = "threads", not(target_arch = "wasm32")))]
     let all = Par::rayon(0);
-    #[cfg(not(feature = "threads"))]
+    #[cfg(not(all(feature = "threads", not(target_arch = "wasm32"))))]
     let all = Par::Seq;
     if rows < LARGE { Par::Seq } else { all }
 }

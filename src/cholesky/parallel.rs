@@ -114,6 +114,11 @@ pub fn for_each<T: Sync, E: Send>(
                     }
                 }
             };
+            // WebAssembly has no threads.
+            if cfg!(target_arch = "wasm32") {
+                serve();
+                break;
+            }
             let started = thread::Builder::new().stack_size(STACK).spawn_scoped(scope, serve);
             if let Err(e) = started {
                 stop.store(true, Ordering::Relaxed);

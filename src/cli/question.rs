@@ -23,7 +23,8 @@ use voussoir::{
     question::QuestionKind as Kind,
     report::{
         chart::Chart,
-        json, page,
+        json,
+        page::{self, SelfChecking},
         record::{self, Record},
         tell,
         text::{self, Asked, TextOptions},
@@ -51,6 +52,8 @@ pub struct Session<'a> {
     common: &'a Common,
     save: Option<Sink>,
     report: Option<Sink>,
+    /// What the page verifies itself by.
+    checker: Option<Vec<u8>>,
     pictures: Pictures,
     source: Source,
     /// What was said when its meshes were read.
@@ -94,6 +97,7 @@ impl<'a> Session<'a> {
         claim::read(&common.scene)?;
         let save = common.save.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
         let report = common.report.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
+        let checker = report::checker(common.self_checking.as_deref())?;
         let start = Instant::now();
         let deadline = deadline::of(common.time_limit);
         let (scene, source, said) = input::scene(&common.scene, common.outside.reach())?;
@@ -124,6 +128,7 @@ impl<'a> Session<'a> {
             common,
             save,
             report,
+            checker,
             pictures: Pictures::default(),
             source,
             said,
@@ -326,7 +331,14 @@ impl<'a> Session<'a> {
                 let origin = report::origin(&self.common.scene, &self.source.text, command);
                 let from = self.pictures.aspect();
                 let record = Record::new(&file, &self.model, &view, from, &origin);
-                report.write(&page::filed(&text, &view, &charts, &record)?)?;
+                let checking = match &self.checker {
+                    Some(module) => {
+                        Some(SelfChecking { module: module.clone(), result: file.to_value()? })
+                    }
+                    None => None,
+                };
+                let checking = checking.as_ref();
+                report.write(&page::self_checking(&text, &view, &charts, &record, checking)?)?;
             }
             // Stages are one film, and drawn by the worst of them.
             let staged = file.question.kind() == Kind::Stages;

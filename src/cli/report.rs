@@ -6,6 +6,7 @@ use std::{
 };
 use voussoir::{
     dynamics::Frame,
+    error::{InputError, JsonPath},
     keep::digest,
     limits,
     report::{
@@ -22,6 +23,24 @@ pub const EVERYTHING: TextOptions = TextOptions { verbose: true, brief: false };
 pub fn layout(layout: Layout) -> Layout {
     Layout { width: usize::MAX, ..layout }
 }
+
+/// What a page verifies itself by, where that is wanted.
+pub fn checker(file: Option<&Path>) -> anyhow::Result<Option<Vec<u8>>> {
+    let Some(path) = file else { return Ok(None) };
+    let make = "make it with `web/build --checker` in a checkout of voussoir's repository: web/site/checker.wasm.gz";
+    let refused = |why: String| InputError {
+        file: Some(path.display().to_string()),
+        ..InputError::at(JsonPath::root(), why).hint(make)
+    };
+    let module = limits::read_file(path, limits::PER_BYTE).map_err(|e| refused(e.message))?;
+    match module.starts_with(GZIP) {
+        true => Ok(Some(module)),
+        false => Err(refused("not a checker: it is no file of gzip".into()).into()),
+    }
+}
+
+/// How files of gzip begin (RFC 1952).
+const GZIP: &[u8] = &[0x1f, 0x8b];
 
 /// Whether the page itself is what standard output holds.
 pub fn is_printed(report: &Option<PathBuf>) -> bool {

@@ -32,6 +32,11 @@ use voussoir::{
 const PROTOCOLS: [&str; 7] = ["drain", "funnel", "cylinder", "tilt", "drum", "hopper", "shear"];
 
 pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
+    if args.common.self_checking.is_some() {
+        bail!(
+            "pages of heaps cannot verify themselves: a heap is no single result; omit --self-checking and verify with `voussoir check`"
+        );
+    }
     if args.question == Asked::Repose {
         return heap::run(args, terminal);
     }

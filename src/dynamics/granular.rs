@@ -18,6 +18,7 @@ use super::{
     rolling::Rolling,
     units::Units,
 };
+use crate::clock::Instant;
 use base::{
     error::InputError,
     tolerance::{GRAIN_REST_ENERGY, GRAIN_REST_TIME, GRAIN_SKIN},
@@ -27,7 +28,7 @@ use model::{
     interface::{Interfaces, Model},
 };
 use nalgebra::{Rotation3, Unit, UnitQuaternion, Vector3};
-use std::{collections::BTreeMap, ops::ControlFlow, time::Instant};
+use std::{collections::BTreeMap, ops::ControlFlow};
 
 /// A step is √(d/g) / this; substeps of it. Finer: time. Coarser: grains sink into each other
 /// before they are seen.

@@ -21,6 +21,7 @@
 
 mod bodies;
 mod cell;
+mod clock;
 pub mod granular;
 mod members;
 mod outcome;

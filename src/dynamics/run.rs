@@ -15,6 +15,7 @@ use super::{
     rolling::Rolling,
     units::Units,
 };
+use crate::clock::Instant;
 use base::{
     error::{Finding, FindingCode, InputError},
     tolerance::{FALLEN, MOVING_ENERGY, REST_ENERGY, REST_TIME, SETTLED, SETTLED_FINE, SKIN},
@@ -25,11 +26,7 @@ use model::{
     strength::{crushing::crushes, uplift},
 };
 use nalgebra::Vector3;
-use std::{
-    collections::BTreeMap,
-    ops::ControlFlow,
-    time::{Duration, Instant},
-};
+use std::{collections::BTreeMap, ops::ControlFlow, time::Duration};
 
 /// Steps between two reports to the caller, and the time after which one is due all the same: the
 /// caller may want to stop.

@@ -1,15 +1,15 @@
 //! The adapter to clarabel, the only file that names it.
 
 use super::{Iteration, Settings, Solution, Status};
-use crate::program::{Cone, ConicProgram};
+use crate::{
+    clock::Instant,
+    program::{Cone, ConicProgram},
+};
 use clarabel::{
     algebra::CscMatrix,
     solver::{DefaultInfo, DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT},
 };
-use std::{
-    sync::{Arc, Mutex},
-    time::Instant,
-};
+use std::sync::{Arc, Mutex};
 
 /// A program that is solved several times with changed right-hand sides and objectives by
 /// clarabel's interior-point method (Goulart & Chen 2024): ordering and set-up are kept.

@@ -1,12 +1,13 @@
 //! When work has to end: a moment, and a flag that whoever waits may raise before. Every loop that
 //! can take long asks it; what remains is computed here and nowhere else.
 
+use crate::clock::Instant;
 use std::{
     sync::{
         OnceLock,
         atomic::{AtomicBool, Ordering},
     },
-    time::{Duration, Instant},
+    time::Duration,
 };
 
 /// Seconds since this was first asked: for how long something took.

@@ -4,7 +4,11 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+#[cfg(target_arch = "wasm32")]
+extern crate faer32 as faer;
+
 mod clarabel;
+pub mod clock;
 pub mod coulomb;
 pub mod deadline;
 mod engine;

@@ -45,6 +45,22 @@ fn associative() -> Control {
     Control { law: Law::Associative, ..Control::default() }
 }
 
+/// The upper end that is claimed lies so far beyond the proved one that the last bits of another machine,
+/// whose sines are others, do not refute it; no further.
+#[test]
+fn an_upper_end_holds_on_another_machine() {
+    let m = model(&arch(0.2));
+    let answer = limit(&m, &Control::default());
+    let (lower, upper) = (answer.bracket.lower, answer.bracket.upper);
+    let holds = |missed: f64| {
+        let upper = upper * (1.0 - missed);
+        let claim = Claim::LoadFactor { value: lower, lower: lower.min(upper), upper };
+        proved(&m, claim, &answer.forces, answer.base.as_ref().map(|b| &b.1), &answer.rates)
+    };
+    assert!(holds(0.0) && holds(5e-14));
+    assert!(!holds(2e-13));
+}
+
 #[test]
 fn a_stable_claim_needs_forces_that_balance_inside_their_cones() {
     let m = model(&arch(0.15));

@@ -339,3 +339,41 @@ fn a_page_is_written_whole_or_not_at_all() {
             && output.stdout.trim_ascii_end().ends_with(b"</html>")
     );
 }
+
+/// A page runs no code but its own, and a module of WebAssembly only where it verifies itself.
+#[test]
+fn a_page_that_verifies_itself_holds_result_and_checker() {
+    let folder = tempfile::tempdir().unwrap();
+    let [module, other, page] = ["checker.gz", "other", "page.html"].map(|n| folder.path().join(n));
+    std::fs::write(&module, [0x1f, 0x8b, 8, 0]).unwrap();
+    std::fs::write(&other, "\0asm").unwrap();
+    let scene = format!("{}/structures/column.json", env!("CARGO_MANIFEST_DIR"));
+    let policy = |text: &str| -> String {
+        text.split("http-equiv=\"Content-Security-Policy\"")
+            .nth(1)
+            .unwrap()
+            .split('>')
+            .next()
+            .unwrap()
+            .into()
+    };
+    let plain = report(&["assess", &scene], &page);
+    assert!(!policy(&plain).contains("eval") && !plain.contains("id=\"checker\""));
+    let own = report(&["assess", &scene, "--self-checking", module.to_str().unwrap()], &page);
+    assert!(policy(&own).contains("'unsafe-inline' 'wasm-unsafe-eval';"), "{}", policy(&own));
+    assert!(own.contains("id=\"checker\">H4sIAA==</script>"));
+    let result = own.split("id=\"result\">").nth(1).unwrap().split("</script>").next().unwrap();
+    let result: serde_json::Value = serde_json::from_str(result).unwrap();
+    assert_eq!(result["format"], "voussoir-result/3");
+    for file in [&other, &folder.path().join("none")] {
+        let output = Command::new(env!("CARGO_BIN_EXE_voussoir"))
+            .args(["assess", &scene, "--report"])
+            .arg(&page)
+            .arg("--self-checking")
+            .arg(file)
+            .output()
+            .unwrap();
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.code() == Some(2) && said.contains("web/build --checker"), "{said}");
+    }
+}

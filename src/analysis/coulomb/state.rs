@@ -23,6 +23,7 @@ use check::{
 use model::interface::Model;
 use solve::{
     Settings,
+    clock::Instant,
     coulomb::{Exact, FixedPoint, Newton, Solved, Solvers, StoppingCriterion, iterate},
     deadline::Deadline,
     program::{
@@ -30,7 +31,6 @@ use solve::{
         coulomb::{Contacts, HeldQuantity, Objective},
     },
 };
-use std::time::Instant;
 
 /// The state of a scene under its dead load with dry friction.
 #[derive(Clone, Debug)]

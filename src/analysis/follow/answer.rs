@@ -436,6 +436,8 @@ fn linkage_proof(
         certificate::kinematics(model, &rates, &forces).upper()
     });
     let lower = point.load_factor.min(upper);
+    let width = claim::width(lower, claim::natural_factor(&model.assembly));
+    let upper = upper + tolerance::LOAD_FACTOR_ELSEWHERE * width;
     let claim = Some(Claim::LoadFactor { value: lower, lower, upper });
     let proof = PointProof::of(model, &Proved::new(model, Side { claim, forces, rates }));
     proof.claim.is_some().then_some(proof)
@@ -497,8 +499,7 @@ fn dry_proof(
     control: &Control,
 ) -> PointProof {
     let (model, value) = (&found.model, point.load_factor);
-    let width = tolerance::LOAD_FACTOR_WIDTH * value.abs()
-        + tolerance::LOAD_FACTOR_FLOOR * claim::natural_factor(&model.assembly);
+    let width = claim::width(value, claim::natural_factor(&model.assembly));
     let forces = slid_forces(carried, found, &point.forces, touch);
     if bound.claim().is_some() && bound.value.is_some_and(|b| (b - value).abs() <= width) {
         return PointProof::of(model, bound).moving(forces);

@@ -71,7 +71,7 @@ pub struct MovingMember {
 /// A collapse mechanism in words.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mechanism {
-    /// Blocks that move, the fastest first.
+    /// Blocks that move, the fastest first; those that are equally fast in the order of the scene.
     pub moving: Vec<usize>,
     /// Joints that move, in interface order.
     pub joints: Vec<MovingJoint>,
@@ -86,7 +86,9 @@ pub fn read(model: &Model, rates: &[Rate]) -> Mechanism {
     let fastest = assembly.free().map(speed).fold(0.0, f64::max);
     let mut moving: Vec<usize> =
         assembly.free().filter(|&i| speed(i) > tolerance::MECHANISM_REST * fastest).collect();
-    moving.sort_by(|&i, &j| speed(j).total_cmp(&speed(i)).then(i.cmp(&j)));
+    moving.sort_by(|&i, &j| speed(j).total_cmp(&speed(i)));
+    let alike = |i: &usize, j: &usize| speed(*i) - speed(*j) <= tolerance::SAME_SPEED * fastest;
+    moving.chunk_by_mut(alike).for_each(<[usize]>::sort_unstable);
     let joints =
         (0..interfaces.list.len())
             .filter_map(|k| {

@@ -468,6 +468,13 @@ pub struct Common {
     /// The page needs no network connection.
     #[arg(long, value_name = "FILE", value_parser = output(Written::Html), help_heading = "Output")]
     pub report: Option<PathBuf>,
+    /// Let the page of --report verify its own answer, by this checker for browsers.
+    ///
+    /// The file is `checker.wasm.gz`, which `web/build` makes in the repository of voussoir. The page
+    /// then holds scene, evidence and checker, some 2 MB, and says when it is opened whether the
+    /// answer in its heading is proved.
+    #[arg(long, value_name = "FILE", requires = "report", help_heading = "Output")]
+    pub self_checking: Option<PathBuf>,
     /// Solve the scene in full, without reductions.
     ///
     /// By default symmetry and missing friction reduce the work; nothing is neglected.

@@ -14,13 +14,14 @@ use super::{
     },
     Loads, ONSET, PATIENCE, REPORT, RunState, Stage, smooth, strengths, unknown_members,
 };
+use crate::clock::Instant;
 use base::{
     error::{Finding, InputError, JsonPath},
     tolerance::{REST_ENERGY, REST_TIME, SKIN},
 };
 use model::interface::Model;
 use nalgebra::{UnitQuaternion, Vector3};
-use std::{ops::ControlFlow, time::Instant};
+use std::ops::ControlFlow;
 
 /// A block that is faster than this × the fastest point of a support may be falling. Larger: a fall is
 /// told late. Smaller: mechanisms that go faster than what drives them pass for falls.

@@ -16,6 +16,7 @@ use super::{
     },
     Beside, Loads, PATIENCE, Pulls, REPORT, RunState, Stage, strengths, unknown_members,
 };
+use crate::clock::Instant;
 use base::{
     error::{Finding, FindingCode, InputError, JsonPath},
     tolerance::{ALONG, OVERTURNED, REST_ENERGY, REST_TIME, SKIN, SUNK},
@@ -23,7 +24,7 @@ use base::{
 use check::ground::{Motion, When};
 use model::interface::Model;
 use nalgebra::Vector3;
-use std::{collections::BTreeMap, ops::ControlFlow, time::Instant};
+use std::{collections::BTreeMap, ops::ControlFlow};
 
 /// After the ground has come to rest the scene is watched this many times as long as a fall takes.
 const AFTER: f64 = 4.0;

@@ -9,11 +9,13 @@ use serde_json::Value;
 /// # Errors
 /// Only if memory runs out.
 pub(super) fn json(value: &Value) -> Result<String, serde_json::Error> {
+    Ok(escaped(&serde_json::to_string(&shown(value))?))
+}
+
+/// The text of a JSON value so that nothing in it ends an element.
+pub(super) fn escaped(json: &str) -> String {
     // Outside strings JSON has none of these characters.
-    Ok(serde_json::to_string(&shown(value))?
-        .replace('<', "\\u003c")
-        .replace('>', "\\u003e")
-        .replace('&', "\\u0026"))
+    json.replace('<', "\\u003c").replace('>', "\\u003e").replace('&', "\\u0026")
 }
 
 /// The value with every text as it is to be read: scripts put it on the page as it is.

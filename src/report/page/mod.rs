@@ -11,10 +11,12 @@ mod html;
 mod live;
 mod pack;
 mod record;
+mod self_checking;
 mod study;
 mod sweep;
 
 pub use live::{live, piece};
+pub use self_checking::SelfChecking;
 pub use study::{experiments, extreme, omissions, study};
 pub use sweep::sweep;
 
@@ -65,14 +67,32 @@ pub fn filed(
     charts: &[Chart],
     record: &Record,
 ) -> Result<String, serde_json::Error> {
+    self_checking(text, view, charts, record, None)
+}
+
+/// The same with what it verifies itself by, where there is such.
+///
+/// # Errors
+/// Only if memory runs out.
+pub fn self_checking(
+    text: &Page,
+    view: &View,
+    charts: &[Chart],
+    record: &Record,
+    checking: Option<&SelfChecking>,
+) -> Result<String, serde_json::Error> {
     let data = json!({ "view": pack::view(view), "charts": packed(charts) });
-    let scripts: Vec<&str> = [BASE, CHARTS].into_iter().chain(SCENE).collect();
+    let own = if checking.is_some() { self_checking::SCRIPTS } else { &[] };
+    let scripts: Vec<&str> =
+        [BASE, CHARTS].into_iter().chain(SCENE).chain(own.iter().copied()).collect();
     Ok(html::fill(
         TEMPLATE,
         &[
             ("title", &markup(&facts::plain_title(text))),
             ("style", STYLE),
+            ("wasm", if checking.is_some() { " 'wasm-unsafe-eval'" } else { "" }),
             ("head", &facts::head(text)),
+            ("verified", if checking.is_some() { self_checking::PLACE } else { "" }),
             ("kind", "picture"),
             ("main", PICTURE),
             ("cover", &record::cover(record)),
@@ -80,6 +100,7 @@ pub fn filed(
             ("record", &record::html(record)),
             ("version", env!("CARGO_PKG_VERSION")),
             ("data", &html::json(&data)?),
+            ("proof", &checking.map(SelfChecking::html).transpose()?.unwrap_or_default()),
             ("script", &scripts.join("\n")),
         ],
     ))

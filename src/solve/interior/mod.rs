@@ -26,8 +26,7 @@ use self::{
     structure::Structure,
 };
 use super::{Passed, Settings, Solution, Status};
-use crate::program::ConicProgram;
-use std::time::Instant;
+use crate::{clock::Instant, program::ConicProgram};
 
 /// A program that is solved several times with changed right-hand sides and objectives: pattern and
 /// ordering are kept.

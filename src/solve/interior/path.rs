@@ -8,8 +8,7 @@ use super::{
     step::{add, kept_inside, share_of_the_way, slack, steps},
     structure::Structure,
 };
-use crate::{Iteration, Settings, Status};
-use std::time::Instant;
+use crate::{Iteration, Settings, Status, clock::Instant};
 
 /// A point within this × the tolerance is almost a solution: rounding may allow no more. Larger:
 /// poor points pass where no later attempt would be better. Smaller: sequences of programs leave

@@ -130,6 +130,11 @@ impl Browser {
         self.post("/url", json!({ "url": url }));
     }
 
+    /// Turns to a frame of the page by its place, or back to the whole.
+    pub fn frame(&self, place: Option<u32>) {
+        self.post("/frame", json!({ "id": place }));
+    }
+
     /// Runs a script; what it returns.
     pub fn run(&self, script: &str) -> Value {
         self.post("/execute/sync", json!({ "script": script, "args": [] }))

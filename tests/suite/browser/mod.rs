@@ -2,8 +2,10 @@
 //! blocks and joints can be picked, the mechanism moves, and all of it without WebGL as well.
 //! Skipped, with a word, where there is no Chromium.
 
+mod checking;
 mod driver;
 mod live;
+mod site;
 
 use crate::page::{HOSTILE, hostile, report};
 use driver::Browser;

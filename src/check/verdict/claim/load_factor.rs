@@ -77,6 +77,12 @@ pub fn dry_map(model: &Model, forces: &Forces, rates: &[Rate]) -> f64 {
     law::natural_map_in_loads(model, forces, rates).unwrap_or(f64::INFINITY)
 }
 
+/// How far the ends of a load factor may lie from its value, with the one at which live and dead load
+/// are equally large.
+pub fn width(value: f64, natural: f64) -> f64 {
+    tolerance::LOAD_FACTOR_WIDTH * value.abs() + tolerance::LOAD_FACTOR_FLOOR * natural
+}
+
 /// Forces at `lower` from below and a mechanism from above.
 pub(super) fn load_factor(
     f: &mut Findings,
@@ -102,7 +108,7 @@ pub(super) fn load_factor(
     );
     // A bracket may be true and wide; a load factor below the limit is still not the limit. NaN is
     // not narrow.
-    let width = tolerance::LOAD_FACTOR_WIDTH * lower.abs() + tolerance::LOAD_FACTOR_FLOOR * natural;
+    let width = width(lower, natural);
     supported(f, model, (forces, rates), lower, width);
     let (open, narrow) = (upper - lower, 2.0 * width);
     if open.is_nan() || open.abs() > narrow {

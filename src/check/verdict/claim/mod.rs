@@ -8,7 +8,7 @@ mod motion;
 pub use super::findings::Findings;
 pub(super) use balance::balanced;
 pub use balance::{cones, live_alone, natural_factor};
-pub use load_factor::{dry_map, dry_width, ends, upper_bound};
+pub use load_factor::{dry_map, dry_width, ends, upper_bound, width};
 pub use motion::moving;
 
 use super::{
