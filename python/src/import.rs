@@ -12,7 +12,7 @@ use voussoir::{
 /// Makes a scene from files (`paths`), or from one that is in memory (`name`, `bytes`). Beside it
 /// stand the findings on the way.
 #[pyfunction]
-#[pyo3(signature = (paths, *, name=None, data=None, supports=Vec::new(), support_below=None, support_files=Vec::new(), friction=None, density=None, scale=None, up="z", gap=None, angle_deg=None, stored_interfaces=true, depth=None, support_layers=Vec::new()))]
+#[pyo3(signature = (paths, *, name=None, data=None, supports=Vec::new(), support_below=None, support_files=Vec::new(), friction=None, density=None, scale=None, up=None, gap=None, angle_deg=None, stored_interfaces=true, depth=None, support_layers=Vec::new()))]
 #[allow(clippy::too_many_arguments, clippy::type_complexity)]
 pub fn import_scene(
     py: Python,
@@ -25,14 +25,14 @@ pub fn import_scene(
     friction: Option<f64>,
     density: Option<f64>,
     scale: Option<f64>,
-    up: &str,
+    up: Option<&str>,
     gap: Option<f64>,
     angle_deg: Option<f64>,
     stored_interfaces: bool,
     depth: Option<f64>,
     support_layers: Vec<String>,
 ) -> PyResult<(Scene, Vec<(String, String, bool, bool)>)> {
-    let up = upwards(up).map_err(|e| Trouble::from(e).raise(py))?;
+    let up = up.map(upwards).transpose().map_err(|e| Trouble::from(e).raise(py))?;
     let friction = friction.map(|mu| match mu == f64::INFINITY {
         true => Friction::Infinite,
         false => Friction::Coefficient(mu),

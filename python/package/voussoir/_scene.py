@@ -313,7 +313,7 @@ def import_file(
     friction: Friction | None = None,
     density: float | None = None,
     scale: float | None = None,
-    up: Up = "z",
+    up: Up | None = None,
     gap: float | None = None,
     angle_deg: float | None = None,
     stored_interfaces: bool = True,
@@ -339,8 +339,8 @@ def import_file(
     scale : float, optional
         Multiplies coordinates: 0.001 for a file in millimetres; by default the unit that the file
         names.
-    up : {"x", "y", "z", "-x", "-y", "-z"}
-        The axis of the file that points up.
+    up : {"x", "y", "z", "-x", "-y", "-z"}, optional
+        The axis of the file that points up; by default y of glTF, z of others.
     gap, angle_deg : float, optional
         When faces touch, as in :class:`ContactTolerances`.
     stored_interfaces : bool

@@ -122,9 +122,9 @@ pub struct Import {
     /// Multiply coordinates: 0.001 for a file in millimetres; by default the unit that the file names.
     #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = positive)]
     pub scale: Option<f64>,
-    /// Axis of the file that points up: x, y, z, -x, -y or -z.
-    #[arg(long, value_name = "AXIS", default_value = "z", allow_hyphen_values = true, value_parser = up)]
-    pub up: Up,
+    /// Axis of the file that points up: x, y, z, -x, -y or -z; by default y of glTF, z of others.
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, value_parser = up)]
+    pub up: Option<Up>,
     /// Greatest gap between touching faces, relative to the size of the smaller block.
     #[arg(long, value_name = "GAP", allow_negative_numbers = true, value_parser = not_negative)]
     pub gap: Option<f64>,

@@ -1,4 +1,4 @@
-//! Convex hulls of points: the only place in the generators that names parry.
+//! Convex hulls of points: the only place in this crate that names parry.
 
 use parry3d::{mass_properties::MassProperties, math::Vector, transformation::try_convex_hull};
 
@@ -14,12 +14,26 @@ pub struct Hull {
 
 /// The hull of points; `None` where they lie in a plane.
 pub fn hull(points: &[[f64; 3]]) -> Option<Hull> {
-    let points: Vec<Vector> = points.iter().map(|p| Vector::new(p[0], p[1], p[2])).collect();
-    let (corners, triangles) = try_convex_hull(&points).ok()?;
+    let (corners, triangles) = raw(points)?;
     let mass = MassProperties::from_convex_polyhedron(1.0, &corners, &triangles);
     let (middle, volume) = (mass.local_com, mass.mass());
     let vertices =
         corners.iter().map(|c| [c.x - middle.x, c.y - middle.y, c.z - middle.z]).collect();
-    let faces = triangles.iter().map(|t| t.map(|k| k as usize).to_vec()).collect();
-    (volume > 0.0).then_some(Hull { vertices, faces, volume })
+    (volume > 0.0).then_some(Hull { vertices, faces: faces(triangles), volume })
+}
+
+/// Corners of the hull of points, where they are, and triangles, counter-clockwise seen from outside;
+/// `None` where the points lie in a plane.
+pub fn corners(points: &[[f64; 3]]) -> Option<(Vec<[f64; 3]>, Vec<Vec<usize>>)> {
+    let (corners, triangles) = raw(points)?;
+    Some((corners.iter().map(|c| [c.x, c.y, c.z]).collect(), faces(triangles)))
+}
+
+fn raw(points: &[[f64; 3]]) -> Option<(Vec<Vector>, Vec<[u32; 3]>)> {
+    let points: Vec<Vector> = points.iter().map(|p| Vector::new(p[0], p[1], p[2])).collect();
+    try_convex_hull(&points).ok()
+}
+
+fn faces(triangles: Vec<[u32; 3]>) -> Vec<Vec<usize>> {
+    triangles.iter().map(|t| t.map(|k| k as usize).to_vec()).collect()
 }

@@ -15,7 +15,7 @@ mod dome;
 mod flat_arch;
 mod grain;
 mod groin;
-mod hull;
+pub(crate) mod hull;
 mod lattice;
 mod leaves;
 mod load;

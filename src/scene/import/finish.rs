@@ -2,7 +2,8 @@
 
 use super::{
     ImportOptions, Imported, Origin, Up,
-    raw::{Raw, list, tally},
+    raw::{Grain, Ground, Raw, Solid, list, tally},
+    surface::{self, Surface},
 };
 use crate::{Ball, BlockSpec, Material, Scene, Shape};
 use base::{
@@ -10,7 +11,7 @@ use base::{
     number::roundest,
     tolerance,
 };
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// Name of the material that carries [`ImportOptions::density`].
 const MATERIAL: &str = "block";
@@ -30,33 +31,39 @@ pub(super) fn scene(mut files: Vec<Raw>, options: &ImportOptions) -> Result<Impo
     }
     let (mut unwanted, mut with_forces) = (0, 0);
     let mut origins = Vec::new();
+    let (mut surfaces, mut gravity) = (BTreeMap::new(), None);
     findings.extend(told(&mut files));
     for file in files {
-        let scale = file.scale(options);
+        let (scale, up) = (file.scale(options), file.up(options));
         let place = |points: &mut [[f64; 3]], what: &str| {
-            place(points, scale, options.up).map_err(|v| beyond(&file.origin, what, v, scale))
+            place(points, scale, up).map_err(|v| beyond(&file.origin, what, v, scale))
         };
         scene.materials.extend(file.materials);
+        surfaces.extend(file.surfaces);
+        pull(&mut gravity, file.gravity.map(|g| up.rotate(g)), &file.origin, &mut findings);
+        let mut add = |block, line, lines| {
+            origins.push(Origin { file: file.name.clone(), line, lines });
+            scene.blocks.push(block);
+        };
         for mut block in file.blocks {
             place(&mut block.vertices, &block.id)?;
-            origins.push(Origin { file: file.name.clone(), line: block.line, lines: block.lines });
-            let shape = Shape::Polyhedron { vertices: block.vertices, faces: block.faces };
-            scene.blocks.push(BlockSpec {
-                support: block.support,
-                material: block.material,
-                ..BlockSpec::new(block.id, shape)
-            });
+            place(block.heft.centroid.as_mut_slice(), &block.id)?;
+            let (line, lines) = (block.line, std::mem::take(&mut block.lines));
+            add(polyhedron(block), line, lines);
         }
-        for grain in file.grains {
+        for mut grain in file.grains {
             let mut centers: Vec<[f64; 3]> = grain.spheres.iter().map(|s| s.0).collect();
             place(&mut centers, &grain.id)?;
+            place(grain.heft.centroid.as_mut_slice(), &grain.id)?;
             let radii = grain.spheres.iter().map(|s| s.1 * scale);
-            origins.push(Origin {
-                file: file.name.clone(),
-                line: Some(grain.line),
-                lines: Vec::new(),
-            });
-            scene.blocks.push(spheres(grain.id, grain.support, centers.into_iter().zip(radii)));
+            let list = centers.into_iter().zip(radii).collect();
+            add(spheres(&grain, list), Some(grain.line), Vec::new());
+        }
+        for mut ground in file.planes {
+            place(std::slice::from_mut(&mut ground.at), &ground.id)?;
+            ground.normal = up.rotate(ground.normal);
+            let line = ground.line;
+            add(plane(ground), Some(line), Vec::new());
         }
         if !options.stored_interfaces {
             unwanted += file.interfaces.len();
@@ -65,17 +72,18 @@ pub(super) fn scene(mut files: Vec<Raw>, options: &ImportOptions) -> Result<Impo
         with_forces += file.with_forces;
         for mut interface in file.interfaces {
             place(&mut interface.points, &interface.between.join("–"))?;
-            interface.normal = interface.normal.map(|n| options.up.rotate(n));
+            interface.normal = interface.normal.map(|n| up.rotate(n));
             scene.interfaces.push(interface);
         }
     }
+    scene.gravity = gravity.unwrap_or(scene.gravity);
+    surface::joints(&mut scene, &surfaces, options.friction, &mut findings)?;
     if let Some(density) = options.density {
-        scene.materials = [(MATERIAL.to_string(), Material::of_density(density))].into();
-        scene.blocks.iter_mut().for_each(|b| b.material = Some(MATERIAL.into()));
+        weigh(&mut scene, density);
     }
     supports(&mut scene, options, &mut findings)?;
     interfaces(&mut scene, unwanted, with_forces, &mut findings);
-    if options.friction.is_none() {
+    if scene.joints.default.friction.is_none() {
         findings.push(Finding::new(
             FindingCode::Missing,
             "the scene has no friction for its joints and cannot be assessed: import with `--friction MU` or set joints.default.friction",
@@ -103,9 +111,65 @@ fn told(files: &mut [Raw]) -> Vec<Finding> {
     all.into_iter().map(named).collect()
 }
 
+/// The gravity of the first file that has one; another one of a later file is told.
+fn pull(
+    gravity: &mut Option<[f64; 3]>,
+    own: Option<[f64; 3]>,
+    origin: &str,
+    findings: &mut Vec<Finding>,
+) {
+    match (&gravity, own) {
+        (None, _) => *gravity = own,
+        (Some(first), Some(own)) if *first != own => findings.push(Finding::new(
+            FindingCode::LeftOut,
+            format!("{origin}: gravity {own:?}, left out: a file before has {first:?}"),
+        )),
+        _ => {}
+    }
+}
+
+/// One density for all blocks. Materials that exceptions of the joints name are kept.
+fn weigh(scene: &mut Scene, density: f64) {
+    let of_pairs: HashSet<String> =
+        scene.joints.overrides.iter().flat_map(|o| o.between.clone()).flatten().collect();
+    scene.materials.retain(|name, _| of_pairs.contains(name));
+    scene.materials.values_mut().for_each(|m| m.density = density);
+    for block in &mut scene.blocks {
+        (block.density, block.mass, block.centroid) = (None, None, None);
+        if block.material.as_ref().is_none_or(|name| !of_pairs.contains(name)) {
+            block.material = Some(MATERIAL.into());
+        }
+    }
+    if scene.blocks.iter().any(|b| b.material.as_deref() == Some(MATERIAL)) {
+        scene.materials.insert(MATERIAL.into(), Material::of_density(density));
+    }
+}
+
+fn polyhedron(block: Solid) -> BlockSpec {
+    BlockSpec {
+        support: block.support,
+        material: block.material,
+        density: block.heft.density,
+        mass: block.heft.mass,
+        centroid: block.heft.centroid,
+        ..BlockSpec::new(
+            block.id,
+            Shape::Polyhedron { vertices: block.vertices, faces: block.faces },
+        )
+    }
+}
+
+fn plane(ground: Ground) -> BlockSpec {
+    BlockSpec {
+        at: ground.at,
+        support: true,
+        material: ground.material,
+        ..BlockSpec::new(ground.id, Shape::Plane { normal: ground.normal })
+    }
+}
+
 /// A sphere, or a clump about its first sphere's centre.
-fn spheres(id: String, support: bool, list: impl Iterator<Item = ([f64; 3], f64)>) -> BlockSpec {
-    let list: Vec<_> = list.collect();
+fn spheres(grain: &Grain, list: Vec<([f64; 3], f64)>) -> BlockSpec {
     let at = list.first().map_or([0.0; 3], |s| s.0);
     let shape = match list[..] {
         [(_, radius)] => Shape::Sphere { radius },
@@ -117,7 +181,15 @@ fn spheres(id: String, support: bool, list: impl Iterator<Item = ([f64; 3], f64)
             Shape::Clump { spheres: list.iter().map(ball).collect() }
         }
     };
-    BlockSpec { at, support, ..BlockSpec::new(id, shape) }
+    BlockSpec {
+        at,
+        support: grain.support,
+        material: grain.material.clone(),
+        density: grain.heft.density,
+        mass: grain.heft.mass,
+        centroid: grain.heft.centroid.map(|c| std::array::from_fn(|k| c[k] - at[k])),
+        ..BlockSpec::new(grain.id.clone(), shape)
+    }
 }
 
 /// Puts the file's name before its ids where two files use the same one.
@@ -136,6 +208,7 @@ fn name_files_apart(files: &mut [Raw]) -> Result<Vec<Finding>, InputError> {
             |id: &str| if id == file.stem { prefix.clone() } else { format!("{prefix}-{id}") };
         file.blocks.iter_mut().for_each(|b| b.id = rename(&b.id));
         file.grains.iter_mut().for_each(|g| g.id = rename(&g.id));
+        file.planes.iter_mut().for_each(|p| p.id = rename(&p.id));
         for end in file.interfaces.iter_mut().flat_map(|i| &mut i.between) {
             *end = rename(end);
         }
@@ -159,27 +232,41 @@ fn name_files_apart(files: &mut [Raw]) -> Result<Vec<Finding>, InputError> {
 fn clash(files: &[Raw]) -> Option<String> {
     let mut ids = HashSet::new();
     let of = |f: &'_ Raw| -> Vec<String> {
-        f.blocks.iter().map(|b| &b.id).chain(f.grains.iter().map(|g| &g.id)).cloned().collect()
+        let (blocks, grains) = (f.blocks.iter().map(|b| &b.id), f.grains.iter().map(|g| &g.id));
+        blocks.chain(grains).chain(f.planes.iter().map(|p| &p.id)).cloned().collect()
     };
     files.iter().flat_map(of).find(|id| !ids.insert(id.clone()))
 }
 
-/// Renames materials that have the same name but another density than in a file before.
+/// Renames materials that have the same name but another density or surface than in a file before.
 fn name_materials_apart(files: &mut [Raw]) {
-    let mut all: BTreeMap<String, Material> = BTreeMap::new();
+    let mut all: BTreeMap<String, (Material, Option<Surface>)> = BTreeMap::new();
     for file in files {
+        let mut renamed: HashMap<String, String> = HashMap::new();
+        let mut surfaces = std::mem::take(&mut file.surfaces);
         for (name, material) in std::mem::take(&mut file.materials) {
+            let surface = surfaces.remove(&name);
+            let here = (material.clone(), surface);
             let mut unique = name.clone();
             let mut number = 2;
-            while all.get(&unique).is_some_and(|m| *m != material) {
+            while all.get(&unique).is_some_and(|m| *m != here) {
                 unique = format!("{name}-{number}");
                 number += 1;
             }
-            for block in file.blocks.iter_mut().filter(|b| b.material.as_ref() == Some(&name)) {
-                block.material = Some(unique.clone());
+            all.insert(unique.clone(), here);
+            file.materials.insert(unique.clone(), material);
+            file.surfaces.extend(surface.map(|s| (unique.clone(), s)));
+            if unique != name {
+                renamed.insert(name, unique);
             }
-            all.insert(unique.clone(), material.clone());
-            file.materials.insert(unique, material);
+        }
+        let blocks = file.blocks.iter_mut().map(|b| &mut b.material);
+        let grains = file.grains.iter_mut().map(|g| &mut g.material);
+        let planes = file.planes.iter_mut().map(|p| &mut p.material);
+        for name in blocks.chain(grains).chain(planes).flatten() {
+            if let Some(unique) = renamed.get(name) {
+                name.clone_from(unique);
+            }
         }
     }
 }
@@ -193,7 +280,7 @@ fn source(files: &[Raw], options: &ImportOptions) -> String {
     if let Some(scale) = options.scale.filter(|&s| s != 1.0) {
         text.push_str(&format!("; coordinates × {scale}"));
     }
-    match options.up {
+    match files.iter().map(|f| f.up(options)).find(|up| *up != Up::Z).unwrap_or_default() {
         Up::Z => {}
         Up::X => text.push_str("; x up rotated to z"),
         Up::Y => text.push_str("; y up rotated to z"),

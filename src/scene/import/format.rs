@@ -3,6 +3,7 @@
 use super::{
     stl,
     text::{split, unmarked},
+    xml,
 };
 use base::error::{InputError, JsonPath};
 use std::{fmt, path::Path};
@@ -20,6 +21,14 @@ pub enum Format {
     Ply,
     /// Stereolithography.
     Stl,
+    /// Models of MuJoCo.
+    Mjcf,
+    /// Unified robot description format.
+    Urdf,
+    /// Simulation description format (Gazebo).
+    Sdf,
+    /// glTF 2.0, as text or binary.
+    Gltf,
     /// Spheres, as a table or as a dump of LIGGGHTS or LAMMPS.
     Grains,
 }
@@ -32,6 +41,10 @@ impl fmt::Display for Format {
             Format::Dxf => "DXF",
             Format::Ply => "PLY",
             Format::Stl => "STL",
+            Format::Mjcf => "MJCF",
+            Format::Urdf => "URDF",
+            Format::Sdf => "SDF",
+            Format::Gltf => "glTF",
             Format::Grains => "grains",
         })
     }
@@ -52,13 +65,14 @@ impl Format {
                 Some("dxf") => Some(Format::Dxf),
                 Some("ply") => Some(Format::Ply),
                 Some("stl") => Some(Format::Stl),
+                Some("gltf" | "glb") => Some(Format::Gltf),
                 Some("csv" | "dump" | "liggghts" | "lammpstrj") => Some(Format::Grains),
                 _ => None,
             })
             .or_else(|| Format::by_content(bytes))
             .ok_or_else(|| {
                 InputError::at(JsonPath::root(), "the format is unknown from both the extension and the content")
-                    .hint("known formats are COMPAS JSON, OBJ, DXF, PLY, STL, and tables or dumps of grains; name the file .json, .obj, .dxf, .ply, .stl, .csv or .dump")
+                    .hint("known formats are COMPAS JSON, OBJ, DXF, PLY, STL, glTF, MJCF, URDF, SDF, and tables or dumps of grains; name the file .json, .obj, .dxf, .ply, .stl, .gltf, .glb, .csv or .dump; the root of an XML file is <mujoco>, <robot> or <sdf>")
             })
     }
 
@@ -67,7 +81,16 @@ impl Format {
         let statement = |line: &[u8]| {
             [&b"v "[..], b"o ", b"g ", b"f ", b"mtllib "].iter().any(|s| line.starts_with(s))
         };
-        if text.starts_with(b"ITEM:") {
+        if text.starts_with(b"<") {
+            match xml::root(bytes)? {
+                "mujoco" => Some(Format::Mjcf),
+                "robot" => Some(Format::Urdf),
+                "sdf" => Some(Format::Sdf),
+                _ => None,
+            }
+        } else if bytes.starts_with(b"glTF") || is_gltf(text) {
+            Some(Format::Gltf)
+        } else if text.starts_with(b"ITEM:") {
             Some(Format::Grains)
         } else if text.starts_with(b"{") || text.starts_with(b"[") {
             Some(Format::Compas)
@@ -86,4 +109,10 @@ impl Format {
             None
         }
     }
+}
+
+/// Whether a JSON text has the keys that every glTF has and files of COMPAS do not.
+fn is_gltf(text: &[u8]) -> bool {
+    let has = |key: &[u8]| text.windows(key.len()).any(|w| w == key);
+    text.starts_with(b"{") && has(b"\"asset\"") && has(b"\"version\"") && !has(b"\"dtype\"")
 }

@@ -111,6 +111,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw, InputError> {
             spheres: vec![(at, radius)],
             support,
             line: *line,
+            ..Grain::default()
         });
     }
     let clumps = parts.values().filter(|p| p.len() > 1).count();

@@ -6,7 +6,7 @@
 //! opened ([`files`]). What is read is put into the scene, as the file has it: from there on the
 //! scene needs no file, and neither does a result that holds it.
 
-use super::{Format, raw::list, read};
+use super::{Format, raw::list, read, rigid};
 use crate::{Scene, Shape};
 use base::{
     error::{Finding, InputError, JsonPath},
@@ -88,6 +88,37 @@ pub fn read_meshes(
     Ok(findings)
 }
 
+/// The one mesh of a file that another file names, within the folder of that one; with what is worth
+/// knowing.
+///
+/// # Errors
+/// There is no folder, for the file is in memory; the path leaves it, or names no single mesh.
+pub(super) fn beside(
+    folder: Option<&Path>,
+    name: &str,
+) -> Result<(rigid::Mesh, Vec<Finding>), InputError> {
+    let refuse = |e: InputError| {
+        let place = e.position.map_or(String::new(), |(line, column)| format!(" {line}:{column}:"));
+        let text = format!("file {name:?}:{place} {}", e.message);
+        InputError { message: text, position: None, ..e }
+    };
+    let Some(folder) = folder else {
+        let e = InputError::at(JsonPath::root(), "not at hand, for its scene is read from memory");
+        return Err(refuse(e.hint("import from the file itself, with its meshes beside it")));
+    };
+    let read = || {
+        let opened = find(folder, Path::new(name), Reach::Folder)?.open()?;
+        load(&opened, name)
+    };
+    let (mesh, said) = read().map_err(|e| match e.hint.as_deref() {
+        Some(OUTSIDE) => refuse(e.hint("put the file beside the scene")),
+        _ => refuse(e),
+    })?;
+    let named = |f: Finding| Finding { text: format!("{name}: {}", f.text), ..f };
+    let mesh = rigid::Mesh { vertices: mesh.vertices, faces: mesh.faces };
+    Ok((mesh, said.into_iter().map(named).collect()))
+}
+
 /// A file that is meant.
 struct Meant {
     /// Its whole path, without links on the way.
@@ -147,9 +178,11 @@ fn leaves(path: &Path) -> bool {
 }
 
 fn outside(what: &str) -> InputError {
-    InputError::at(JsonPath::root(), format!("{what}, and is not followed"))
-        .hint("put the file beside the scene, or give --allow-outside if you trust the scene")
+    InputError::at(JsonPath::root(), format!("{what}, and is not followed")).hint(OUTSIDE)
 }
+
+const OUTSIDE: &str =
+    "put the file beside the scene, or give --allow-outside if you trust the scene";
 
 fn missing(e: io::Error) -> InputError {
     InputError::at(JsonPath::root(), format!("cannot be read: {e}"))
@@ -168,7 +201,7 @@ fn load(file: &File, name: &str) -> Result<(Mesh, Vec<Finding>), InputError> {
             "name an OBJ, PLY or STL file; `voussoir import` makes scenes of other files",
         );
     }
-    let raw = read(name, &bytes, false, &Default::default())?;
+    let raw = read(name, &bytes, None, false, &Default::default())?;
     let names: Vec<String> = raw.blocks.iter().map(|b| format!("{:?}", b.id)).collect();
     let mut blocks = raw.blocks.into_iter();
     let (Some(solid), None) = (blocks.next(), blocks.next()) else {

@@ -7,6 +7,8 @@
 //! | DXF | ASCII, closed polylines of plane drawings | an outline, given a depth |
 //! | PLY | ASCII and binary, both byte orders | a file |
 //! | STL | ASCII and binary | a `solid`, a binary file |
+//! | MJCF, URDF, SDF | shapes that touch of rigid bodies; what is articulated is refused | a free body with all that is welded to it; a shape that is held |
+//! | glTF | text and binary, triangles; exact shapes of our own exports | a node with a mesh |
 //! | grains | tables (CSV), dumps of LIGGGHTS and LAMMPS | a sphere, a clump of them |
 //!
 //! Importers say what the file says: faces keep their corners and their order, nothing is welded,
@@ -24,14 +26,21 @@ mod compas;
 mod dxf;
 mod finish;
 mod format;
+mod gltf;
 mod grains;
 mod mesh;
+mod mjcf;
 mod obj;
 mod options;
 mod ply;
 mod raw;
+mod rigid;
+mod sdf;
 mod stl;
+mod surface;
 mod text;
+mod urdf;
+mod xml;
 
 #[cfg(test)]
 mod tests;
@@ -129,7 +138,7 @@ pub fn import_bytes(
     options: &ImportOptions,
 ) -> Result<Imported, InputError> {
     options.check()?;
-    let mut files = vec![read(name, bytes, false, options)?];
+    let mut files = vec![read(name, bytes, None, false, options)?];
     add_support_files(&mut files, options)?;
     finish::scene(files, options)
 }
@@ -144,13 +153,16 @@ fn add_support_files(files: &mut Vec<Raw>, options: &ImportOptions) -> Result<()
 fn load(path: &Path, is_support: bool, options: &ImportOptions) -> Result<Raw, InputError> {
     let name = path.display().to_string();
     let bytes = limits::read_file(path, limits::PER_FOREIGN_BYTE)?;
-    read(&name, &bytes, is_support, options)
+    let folder = path.parent().unwrap_or(Path::new(""));
+    read(&name, &bytes, Some(folder), is_support, options)
 }
 
-/// One file, read but not yet scaled, turned or merged with others.
+/// One file, read but not yet scaled, turned or merged with others; `folder` holds the files that it
+/// names.
 fn read(
     name: &str,
     bytes: &[u8],
+    folder: Option<&Path>,
     is_support: bool,
     options: &ImportOptions,
 ) -> Result<Raw, InputError> {
@@ -165,8 +177,12 @@ fn read(
             Format::Ply => ply::read(bytes, &stem),
             Format::Stl => stl::read(bytes, &stem),
             Format::Grains => grains::read(bytes),
+            Format::Mjcf => mjcf::read(bytes, folder),
+            Format::Urdf => urdf::read(bytes, folder),
+            Format::Sdf => sdf::read(bytes, folder),
+            Format::Gltf => gltf::read(bytes, folder),
         }?;
-        if raw.blocks.is_empty() && raw.grains.is_empty() {
+        if raw.is_empty() {
             return Err(InputError::at(
                 JsonPath::root(),
                 format!("no blocks found in this {format} file"),

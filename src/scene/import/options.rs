@@ -26,8 +26,9 @@ pub struct ImportOptions {
     /// Multiplies the coordinates: 0.001 for a file in millimetres. Where nothing is said, the unit that
     /// the file names, or metres.
     pub scale: Option<f64>,
-    /// The axis of the file that points up.
-    pub up: Up,
+    /// The axis of the file that points up. Where nothing is said, that of its format: y of glTF, z of all
+    /// others.
+    pub up: Option<Up>,
     /// The format, where extension and content do not tell it.
     pub format: Option<Format>,
     /// `contact.gap` of the scene: how far apart touching faces may be, relative to the smaller
@@ -51,7 +52,7 @@ impl Default for ImportOptions {
             depth: None,
             support_layers: Vec::new(),
             scale: None,
-            up: Up::Z,
+            up: None,
             format: None,
             gap: None,
             angle_deg: None,

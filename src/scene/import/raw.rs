@@ -1,6 +1,6 @@
 //! What the readers of all formats hand over: blocks and interfaces in the coordinates of the file.
 
-use super::ImportOptions;
+use super::{ImportOptions, Up, surface::Surface};
 use crate::{InterfaceSpec, Material};
 use base::{
     error::{Finding, FindingCode},
@@ -19,12 +19,19 @@ pub(super) struct Raw {
     pub origin: String,
     /// Metres in a unit of the file, where it names one.
     pub unit: Option<f64>,
+    /// The axis that points up, where the format says it.
+    pub up: Option<Up>,
+    /// Gravity, m/s², in the axes of the file.
+    pub gravity: Option<[f64; 3]>,
     pub blocks: Vec<Solid>,
     pub grains: Vec<Grain>,
+    pub planes: Vec<Ground>,
     pub interfaces: Vec<InterfaceSpec>,
     /// How many of them hold solved forces, which are not read.
     pub with_forces: usize,
     pub materials: BTreeMap<String, Material>,
+    /// Surfaces of materials, by their names.
+    pub surfaces: BTreeMap<String, Surface>,
     pub findings: Vec<Finding>,
 }
 
@@ -36,18 +43,43 @@ pub(super) struct Solid {
     pub faces: Vec<Vec<usize>>,
     pub support: bool,
     pub material: Option<String>,
+    pub heft: Heft,
     /// Where it begins in the file: a line, counted from 1.
     pub line: Option<usize>,
     /// The line of each face, where faces have lines.
     pub lines: Vec<usize>,
 }
 
-/// Spheres of one block: centres and radii.
+/// What a file says of the mass of a block.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Heft {
+    /// kg/m³.
+    pub density: Option<f64>,
+    /// kg; goes before the density.
+    pub mass: Option<f64>,
+    /// Centre of mass, where it is not that of the shape, in the coordinates of the file.
+    pub centroid: Option<[f64; 3]>,
+}
+
+/// An unbounded plane that holds.
 #[derive(Debug)]
+pub(super) struct Ground {
+    pub id: String,
+    pub at: [f64; 3],
+    /// Out of the ground.
+    pub normal: [f64; 3],
+    pub material: Option<String>,
+    pub line: usize,
+}
+
+/// Spheres of one block: centres and radii.
+#[derive(Debug, Default)]
 pub(super) struct Grain {
     pub id: String,
     pub spheres: Vec<([f64; 3], f64)>,
     pub support: bool,
+    pub material: Option<String>,
+    pub heft: Heft,
     /// Where it begins in the file: a line, counted from 1.
     pub line: usize,
 }
@@ -56,6 +88,16 @@ impl Raw {
     /// What its coordinates are multiplied by.
     pub fn scale(&self, options: &ImportOptions) -> f64 {
         options.scale.or(self.unit).unwrap_or(1.0)
+    }
+
+    /// The axis that is turned up.
+    pub fn up(&self, options: &ImportOptions) -> Up {
+        options.up.or(self.up).unwrap_or_default()
+    }
+
+    /// Whether it holds nothing that a scene is made of.
+    pub fn is_empty(&self) -> bool {
+        self.blocks.is_empty() && self.grains.is_empty() && self.planes.is_empty()
     }
 
     pub fn say(&mut self, code: FindingCode, text: impl Into<String>) {

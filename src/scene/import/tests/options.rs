@@ -100,7 +100,7 @@ fn every_up_is_a_proper_rotation_that_brings_its_axis_to_z() {
         let matrix = nalgebra::Matrix3::from_columns(&[column(0), column(1), column(2)]);
         assert_eq!(matrix.determinant(), 1.0, "{up:?}");
         assert_eq!(matrix * matrix.transpose(), nalgebra::Matrix3::identity(), "{up:?}");
-        let imported = with(ImportOptions { up, ..ImportOptions::default() }).expect("fine");
+        let imported = with(ImportOptions { up: Some(up), ..ImportOptions::default() }).expect("fine");
         check(&imported.scene);
         assert!(
             (volume(&imported.scene.blocks[0]) - 6.0).abs() < 1e-12,
@@ -115,7 +115,7 @@ fn normals_of_stored_interfaces_turn_with_the_blocks_and_do_not_scale() {
     let node = |z: f64| serde_json::json!({"block": compas_mesh([0.0, 0.0, z])});
     let text =
         serde_json::json!({"graph": {"node": {"0": node(0.0), "1": node(3.0)}, "edge": {"0": {"1": {"interfaces": [seam]}}}}}).to_string();
-    let options = ImportOptions { up: Up::Y, scale: Some(10.0), ..ImportOptions::default() };
+    let options = ImportOptions { up: Some(Up::Y), scale: Some(10.0), ..ImportOptions::default() };
     let imported = import_bytes("x.json", text.as_bytes(), &options).expect("fine");
     assert_eq!(imported.scene.interfaces[0].normal, Some([0.0, -1.0, 0.0]));
     assert_eq!(
