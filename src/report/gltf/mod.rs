@@ -6,6 +6,9 @@
 //! `extras` say what every animation shows, and how far the fastest corner goes: mechanisms have no
 //! size of their own.
 //!
+//! Positions are single precision; the `extras` of a block have its exact shape, in the coordinates of the
+//! file, by which importing it gives the same block.
+//!
 //! Khronos Group, *glTF 2.0 Specification* (ISO/IEC 12113:2022).
 
 mod animation;
@@ -64,20 +67,27 @@ pub fn binary(view: &View) -> Result<Vec<u8>, serde_json::Error> {
     Ok(out)
 }
 
+/// The turn that brings what is up in the scene to y.
+fn upright(view: &View) -> UnitQuaternion<f64> {
+    UnitQuaternion::rotation_between(&view.ground, &Vector3::y()).unwrap_or_else(|| {
+        UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI)
+    })
+}
+
 /// The document, and what its one buffer holds.
 fn document(view: &View) -> (Value, Vec<u8>) {
     let mut buffer = Buffer::default();
     let shapes = Shapes::of(view, &mut buffer);
     let (animations, told) = animations(view, &shapes, &mut buffer);
-    let turn = UnitQuaternion::rotation_between(&view.ground, &Vector3::y()).unwrap_or_else(|| {
-        UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI)
-    });
+    let turn = upright(view);
     let root = json!({
         "name": "voussoir",
         "rotation": turn.coords.as_slice(),
         "translation": (turn * view.middle()).as_slice(),
         "children": (1..=shapes.nodes.len()).collect::<Vec<_>>(),
-        "extras": { "scene": view.name, "unit": "m", "animations": told },
+        "extras": {
+            "scene": view.name, "unit": "m", "gravity_m_s2": view.gravity, "animations": told,
+        },
     });
     let nodes: Vec<Value> = std::iter::once(root).chain(shapes.nodes).collect();
     let mut document = json!({

@@ -23,6 +23,32 @@ const MEMBER: [f64; 3] = [0.0, 0.14, 0.11];
 /// Halvings of the octahedron that a ball is drawn as.
 const BALL: usize = 3;
 
+/// A point of the scene in the coordinates of the file; to the last digit where z is up.
+fn in_file(view: &View, p: Vector3<f64>) -> [f64; 3] {
+    if view.ground == Vector3::z() {
+        return [p.x, p.z, 0.0 - p.y];
+    }
+    (super::upright(view) * p).into()
+}
+
+/// The shape of a block in double precision, and its centre of mass.
+fn exact(body: &BlockView, place: &dyn Fn(Vector3<f64>) -> [f64; 3]) -> Value {
+    let spheres = |list: &[(Vector3<f64>, f64)]| -> Vec<Value> {
+        list.iter().map(|(c, r)| json!({ "at": place(*c), "radius": r })).collect()
+    };
+    let centroid = place(body.center);
+    match &body.shape {
+        ViewShape::Sphere(radius) => json!({ "spheres": spheres(&[(body.center, *radius)]) }),
+        ViewShape::Surface(s) if !s.balls.is_empty() => {
+            json!({ "spheres": spheres(&s.balls), "centroid": centroid })
+        }
+        ViewShape::Surface(s) => {
+            let vertices: Vec<[f64; 3]> = s.corners.iter().map(|c| place(*c)).collect();
+            json!({ "vertices": vertices, "faces": s.pieces, "centroid": centroid })
+        }
+    }
+}
+
 /// What there is to draw; nodes in the order of the blocks, then lines.
 pub(super) struct Shapes {
     pub(super) nodes: Vec<Value>,
@@ -64,7 +90,12 @@ impl Shapes {
             let mut node = json!({
                 "name": body.id,
                 "translation": at.as_slice(),
-                "extras": { "support": body.support, "mass_kg": body.mass, "material": body.material },
+                "extras": {
+                    "support": body.support,
+                    "mass_kg": body.mass,
+                    "material": body.material,
+                    "exact": exact(body, &|p| in_file(view, p)),
+                },
             });
             let mesh = match &body.shape {
                 ViewShape::Surface(surface) => shapes.surface(body, surface, material, buffer),

@@ -65,6 +65,7 @@ fn nothing() -> View {
         up: Vector3::z(),
         caption: String::new(),
         ground: Vector3::z(),
+        gravity: 0.0,
         front: -Vector3::y(),
         low: Vector3::zeros(),
         high: Vector3::zeros(),

@@ -58,6 +58,8 @@ pub struct View {
     pub caption: String,
     /// Unit vector against gravity as the scene has it.
     pub ground: Vector3<f64>,
+    /// Gravity, m/s².
+    pub gravity: f64,
     /// Unit vector across `up` from which one looks: across the greater extent.
     pub front: Vector3<f64>,
     /// The box to look at: that of the free blocks and of what supports them nearby, m.
@@ -238,6 +240,7 @@ impl View {
             up,
             caption: String::new(),
             ground: up,
+            gravity: assembly.gravity.norm(),
             front: front(up, high - low),
             low,
             high,

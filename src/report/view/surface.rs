@@ -22,6 +22,8 @@ pub struct Surface {
     pub pieces: Vec<Vec<u32>>,
     /// Edges where the surface bends, each once.
     pub edges: Vec<[u32; 2]>,
+    /// Centres and radii of the spheres that it stands for, m: of clumps.
+    pub balls: Vec<(Vector3<f64>, f64)>,
 }
 
 impl ViewShape {
@@ -33,10 +35,12 @@ impl ViewShape {
                 corners: p.vertices.clone(),
                 pieces: p.facets.iter().flat_map(|f| f.pieces.iter().cloned()).collect(),
                 edges: edges(p),
+                balls: Vec::new(),
             }),
             Solid::Clump { balls, .. } => {
                 Self::Surface(balls.iter().fold(Surface::default(), |mut all, (center, radius)| {
                     all.add_ball(center, *radius);
+                    all.balls.push((*center, *radius));
                     all
                 }))
             }

@@ -6,7 +6,7 @@
 //! opened ([`files`]). What is read is put into the scene, as the file has it: from there on the
 //! scene needs no file, and neither does a result that holds it.
 
-use super::{Format, raw::list, read, rigid};
+use super::{Format, raw::list, read, rigid, text::shorten};
 use crate::{Scene, Shape};
 use base::{
     error::{Finding, InputError, JsonPath},
@@ -97,26 +97,39 @@ pub(super) fn beside(
     folder: Option<&Path>,
     name: &str,
 ) -> Result<(rigid::Mesh, Vec<Finding>), InputError> {
-    let refuse = |e: InputError| {
-        let place = e.position.map_or(String::new(), |(line, column)| format!(" {line}:{column}:"));
-        let text = format!("file {name:?}:{place} {}", e.message);
-        InputError { message: text, position: None, ..e }
-    };
-    let Some(folder) = folder else {
-        let e = InputError::at(JsonPath::root(), "not at hand, for its scene is read from memory");
-        return Err(refuse(e.hint("import from the file itself, with its meshes beside it")));
-    };
-    let read = || {
-        let opened = find(folder, Path::new(name), Reach::Folder)?.open()?;
-        load(&opened, name)
-    };
-    let (mesh, said) = read().map_err(|e| match e.hint.as_deref() {
-        Some(OUTSIDE) => refuse(e.hint("put the file beside the scene")),
-        _ => refuse(e),
-    })?;
+    let read = || load(&opened_beside(folder, name)?, name);
+    let (mesh, said) = read().map_err(|e| of_file(name, e))?;
     let named = |f: Finding| Finding { text: format!("{name}: {}", f.text), ..f };
     let mesh = rigid::Mesh { vertices: mesh.vertices, faces: mesh.faces };
     Ok((mesh, said.into_iter().map(named).collect()))
+}
+
+/// The bytes of a file that another file names, within the folder of that one.
+///
+/// # Errors
+/// There is no folder, for the file is in memory; the path leaves it, or cannot be read.
+pub(super) fn bytes_beside(folder: Option<&Path>, name: &str) -> Result<Vec<u8>, InputError> {
+    let read = || limits::read_opened(&opened_beside(folder, name)?, limits::PER_FOREIGN_BYTE);
+    read().map_err(|e| of_file(name, e))
+}
+
+fn opened_beside(folder: Option<&Path>, name: &str) -> Result<File, InputError> {
+    let Some(folder) = folder else {
+        let e = InputError::at(JsonPath::root(), "not at hand, for its scene is read from memory");
+        return Err(e.hint("import from the file itself, with what it names beside it"));
+    };
+    let found = find(folder, Path::new(name), Reach::Folder).and_then(|file| file.open());
+    found.map_err(|e| match e.hint.as_deref() {
+        Some(OUTSIDE) => e.hint("put the file beside the scene"),
+        _ => e,
+    })
+}
+
+/// The error with the file that it is about, which is not the one being read.
+fn of_file(name: &str, e: InputError) -> InputError {
+    let place = e.position.map_or(String::new(), |(line, column)| format!(" {line}:{column}:"));
+    let message = format!("file {:?}:{place} {}", shorten(name), e.message);
+    InputError { message, position: None, ..e }
 }
 
 /// A file that is meant.

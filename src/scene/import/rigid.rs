@@ -154,10 +154,11 @@ impl Made {
     fn hold(&mut self, body: Body, raw: &mut Raw) {
         let alone = body.parts.iter().filter(|p| !p.is_ghost).count() == 1;
         for part in body.parts {
-            let wanted = match (alone, part.name.is_empty()) {
-                (true, _) if !body.id.is_empty() => body.id.clone(),
-                (_, false) => part.name.clone(),
-                _ => String::new(),
+            let wanted = match (body.id.is_empty(), part.name.is_empty()) {
+                (true, _) => part.name.clone(),
+                (false, _) if alone => body.id.clone(),
+                (false, true) => String::new(),
+                (false, false) => format!("{}-{}", body.id, part.name),
             };
             if part.is_ghost {
                 self.ghosts.push(place(&part.name, part.line));
@@ -381,18 +382,18 @@ fn volume(form: &Form) -> (f64, Point3<f64>) {
         Form::Sphere(r) => (4.0 / 3.0 * PI * r.powi(3), Point3::origin()),
         Form::Cylinder { radius, half } => (2.0 * half * PI * radius * radius, Point3::origin()),
         Form::Plane => (0.0, Point3::origin()),
-        Form::Mesh(mesh) => of_mesh(mesh),
+        Form::Mesh(mesh) => of_mesh(&mesh.vertices, &mesh.faces),
     }
 }
 
-/// By the divergence theorem, about the first corner.
-fn of_mesh(mesh: &Mesh) -> (f64, Point3<f64>) {
-    let Some(origin) = mesh.vertices.first().map(|v| Vector3::from(*v)) else {
+/// Volume, m³, and centroid by the divergence theorem, about the first corner.
+pub(super) fn of_mesh(vertices: &[[f64; 3]], faces: &[Vec<usize>]) -> (f64, Point3<f64>) {
+    let Some(origin) = vertices.first().map(|v| Vector3::from(*v)) else {
         return (0.0, Point3::origin());
     };
-    let corner = |i: usize| Vector3::from(mesh.vertices[i]) - origin;
+    let corner = |i: usize| Vector3::from(vertices[i]) - origin;
     let (mut six, mut first) = (0.0, Vector3::zeros());
-    for face in &mesh.faces {
+    for face in faces {
         for pair in face.windows(2).skip(1) {
             let (a, b, c) = (corner(face[0]), corner(pair[0]), corner(pair[1]));
             let part = a.dot(&b.cross(&c));

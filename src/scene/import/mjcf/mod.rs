@@ -12,8 +12,6 @@ mod attributes;
 mod mesh;
 mod place;
 
-pub(super) use place::quaternion;
-
 use super::{
     raw::{Raw, tally},
     rigid::{self, Body, Form, Part, Weight},

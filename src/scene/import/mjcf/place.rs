@@ -84,7 +84,7 @@ fn turn(
 }
 
 /// A turn of any four numbers but zeros.
-pub(in crate::import) fn quaternion(w: f64, x: f64, y: f64, z: f64) -> Option<UnitQuaternion<f64>> {
+pub(super) fn quaternion(w: f64, x: f64, y: f64, z: f64) -> Option<UnitQuaternion<f64>> {
     UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 0.0)
 }
 
