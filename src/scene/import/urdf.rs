@@ -80,7 +80,8 @@ pub(super) fn read(bytes: &[u8], folder: Option<&Path>) -> Result<Raw, InputErro
         let Some(node) = links.get(name).copied() else { continue };
         let body = above.unwrap_or_else(|| {
             bodies.push(Body {
-                id: name.into(),
+                // What hangs on the world has names of its own.
+                id: if name == "world" { String::new() } else { name.into() },
                 line: xml.line(node),
                 support,
                 is_unweighed: true,
@@ -132,10 +133,13 @@ impl Reader<'_, '_> {
 
     fn link(&mut self, node: Node, pose: Isometry3<f64>, body: &mut Body) -> Result<(), InputError> {
         let xml = self.xml;
-        for collision in elements(node).filter(|n| n.has_tag_name("collision")) {
+        let collisions = || elements(node).filter(|n| n.has_tag_name("collision"));
+        let several = collisions().count() > 1;
+        for collision in collisions() {
             let form = self.form(collision)?;
+            let own = collision.attribute("name").filter(|_| several);
             body.parts.push(Part {
-                name: collision.attribute("name").or(node.attribute("name")).unwrap_or("").into(),
+                name: own.or(node.attribute("name")).unwrap_or("").into(),
                 line: xml.line(collision),
                 form,
                 pose: pose * self.origin(collision)?,

@@ -2,6 +2,7 @@
 //! other projects where they are at hand.
 
 mod bad;
+mod bodies;
 mod compas;
 mod dxf;
 mod mesh_formats;
