@@ -66,3 +66,49 @@ space.add_text("section A-A")
 space.add_line((0, 0), (160, 0))
 space.add_hatch().paths.add_polyline_path([(0, 0), (40, 0), (40, 20)])
 doc.saveas(HERE / "faults-2000-cm.dxf")
+
+
+def cube(x: float, y: float, z: float, size: tuple) -> tuple:
+    corners = [
+        (x + size[0] * (k & 1), y + size[1] * (k >> 1 & 1), z + size[2] * (k >> 2 & 1)) for k in range(8)
+    ]
+    rings = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+    return corners, rings
+
+
+# A trilithon in space: piers of loose faces, a lintel as a polyface mesh, the ground inserted; binary.
+doc, space = drawing("R2013", units.M)
+for x in (0, 2):
+    corners, rings = cube(x, 0, 0, (0.5, 0.5, 2))
+    for ring in rings:
+        space.add_3dface([corners[k] for k in ring], dxfattribs={"layer": "STONE"})
+corners, rings = cube(0, 0, 2, (2.5, 0.5, 0.5))
+mesh = space.add_polyface(dxfattribs={"layer": "STONE"})
+mesh.append_faces([[corners[k] for k in ring] for ring in rings])
+slab = doc.blocks.new("SLAB", base_point=(0, 0, 0))
+corners, rings = cube(0, 0, -1, (1, 1, 1))
+for ring in rings:
+    slab.add_3dface([corners[k] for k in ring])
+space.add_blockref("SLAB", (-0.5, -0.25, 0), dxfattribs={"layer": "GROUND", "xscale": 3.5})
+doc.saveas(HERE / "trilithon-2013-m.dxf", fmt="bin")
+
+# A wall of bricks that are all one block, with joints of mortar of 10 mm; the base is mirrored.
+doc, space = drawing("R2007", units.MM)
+brick = doc.blocks.new("BRICK")
+box(brick, 0, 0, 240, 65, "0")
+for course in range(3):
+    for k in range(3):
+        space.add_blockref("BRICK", (125 * (course % 2) + 250 * k, 75 * course), dxfattribs={"layer": "BRICK"})
+base = doc.blocks.new("BASE")
+box(base, 0, 0, 900, 100, "0")
+space.add_blockref("BASE", (900, -10), dxfattribs={"layer": "GROUND", "xscale": -1, "yscale": -1})
+doc.saveas(HERE / "mortar-2007-mm.dxf")
+
+# R12, binary; an insert of a block that is not there, a face that is missing.
+doc, space = drawing("R12", 0)
+for k, (x, faces) in enumerate([(0, 6), (3, 5)]):
+    corners, rings = cube(x, 0, 0, (1, 1, 1))
+    for ring in rings[:faces]:
+        space.add_3dface([corners[k] for k in ring], dxfattribs={"layer": "STONE"})
+space.add_blockref("LOST", (0, 0))
+doc.saveas(HERE / "faults-r12-binary.dxf", fmt="bin")

@@ -3,6 +3,7 @@
 use super::{
     stl,
     text::{split, unmarked},
+    threedec,
 };
 use base::error::{InputError, JsonPath};
 use std::{fmt, path::Path};
@@ -16,6 +17,8 @@ pub enum Format {
     Obj,
     /// Drawing exchange format (ASCII), closed outlines.
     Dxf,
+    /// Commands of 3DEC that make blocks.
+    ThreeDec,
     /// Polygon file format (Stanford).
     Ply,
     /// Stereolithography.
@@ -30,6 +33,7 @@ impl fmt::Display for Format {
             Format::Compas => "COMPAS JSON",
             Format::Obj => "OBJ",
             Format::Dxf => "DXF",
+            Format::ThreeDec => "3DEC",
             Format::Ply => "PLY",
             Format::Stl => "STL",
             Format::Grains => "grains",
@@ -50,6 +54,7 @@ impl Format {
                 Some("json") => Some(Format::Compas),
                 Some("obj") => Some(Format::Obj),
                 Some("dxf") => Some(Format::Dxf),
+                Some("3ddat" | "3dec") => Some(Format::ThreeDec),
                 Some("ply") => Some(Format::Ply),
                 Some("stl") => Some(Format::Stl),
                 Some("csv" | "dump" | "liggghts" | "lammpstrj") => Some(Format::Grains),
@@ -58,7 +63,7 @@ impl Format {
             .or_else(|| Format::by_content(bytes))
             .ok_or_else(|| {
                 InputError::at(JsonPath::root(), "the format is unknown from both the extension and the content")
-                    .hint("known formats are COMPAS JSON, OBJ, DXF, PLY, STL, and tables or dumps of grains; name the file .json, .obj, .dxf, .ply, .stl, .csv or .dump")
+                    .hint("known formats are COMPAS JSON, OBJ, DXF, 3DEC, PLY, STL, and tables or dumps of grains; name the file .json, .obj, .dxf, .3ddat, .ply, .stl, .csv or .dump")
             })
     }
 
@@ -76,6 +81,8 @@ impl Format {
                 && split(text).nth(1).is_some_and(|l| l.trim_ascii() == b"SECTION"))
         {
             Some(Format::Dxf)
+        } else if threedec::looks_like(text) {
+            Some(Format::ThreeDec)
         } else if text.starts_with(b"ply\n") || text.starts_with(b"ply\r") {
             Some(Format::Ply)
         } else if stl::looks_like(bytes) || stl::looks_like(text) {

@@ -4,7 +4,8 @@
 //! |---|---|---|
 //! | COMPAS JSON | Assembly, CRA_Assembly, BlockModel, lists of meshes; versions 0.x, 1 and 2 | a node of the graph, an element, a mesh |
 //! | OBJ | polygons as they are, objects and groups | an object, else a group, else a connected part |
-//! | DXF | ASCII, closed polylines of plane drawings | an outline, given a depth |
+//! | DXF | ASCII and binary, closed polylines, 3DFACE and polyface meshes, inserted blocks | an outline, given a depth; a body |
+//! | 3DEC | `block create` (polyhedron, brick, prism, tetrahedron), `block fix`, `block property density` | a command |
 //! | PLY | ASCII and binary, both byte orders | a file |
 //! | STL | ASCII and binary | a `solid`, a binary file |
 //! | grains | tables (CSV), dumps of LIGGGHTS and LAMMPS | a sphere, a clump of them |
@@ -21,10 +22,12 @@
 //! [`ImportOptions::scale`] × coordinates of the file.
 
 mod compas;
+mod drawing;
 mod dxf;
 mod finish;
 mod format;
 mod grains;
+mod layer;
 mod mesh;
 mod obj;
 mod options;
@@ -32,11 +35,13 @@ mod ply;
 mod raw;
 mod stl;
 mod text;
+mod threedec;
 
 #[cfg(test)]
 mod tests;
 
 pub use format::Format;
+pub use layer::{LayerRule, Role};
 pub use mesh::{Reach, read_meshes};
 pub use options::{ImportOptions, Up};
 
@@ -162,6 +167,7 @@ fn read(
             Format::Compas => compas::read(bytes),
             Format::Obj => obj::read(bytes, &stem),
             Format::Dxf => dxf::read(bytes, options),
+            Format::ThreeDec => threedec::read(bytes, options),
             Format::Ply => ply::read(bytes, &stem),
             Format::Stl => stl::read(bytes, &stem),
             Format::Grains => grains::read(bytes),

@@ -1,7 +1,7 @@
 //! What the readers of all formats hand over: blocks and interfaces in the coordinates of the file.
 
 use super::ImportOptions;
-use crate::{InterfaceSpec, Material};
+use crate::{InterfaceSpec, Load, Material, Member};
 use base::{
     error::{Finding, FindingCode},
     plane::Sets,
@@ -25,6 +25,9 @@ pub(super) struct Raw {
     /// How many of them hold solved forces, which are not read.
     pub with_forces: usize,
     pub materials: BTreeMap<String, Material>,
+    pub members: Vec<Member>,
+    /// Live loads.
+    pub loads: Vec<Load>,
     pub findings: Vec<Finding>,
 }
 
