@@ -112,3 +112,63 @@ for k, (x, faces) in enumerate([(0, 6), (3, 5)]):
         space.add_3dface([corners[k] for k in ring], dxfattribs={"layer": "STONE"})
 space.add_blockref("LOST", (0, 0))
 doc.saveas(HERE / "faults-r12-binary.dxf", fmt="bin")
+
+
+def picture(name: str, width: str, height: str, box: str):
+    """A drawing of svgwrite with a group a layer."""
+    import svgwrite
+
+    page = svgwrite.Drawing(HERE / name, size=(width, height), viewBox=box, profile="full")
+    groups = {layer: page.add(page.g(id=layer)) for layer in ("stone", "ground")}
+    return page, groups
+
+
+# Sections in millimetres at 1 : 20, in centimetres, in pixels; each as rectangles, polygons or paths.
+page, layers = picture("piers-mm.svg", "200mm", "150mm", "0 0 4000 3000")
+for x in (500, 2500):
+    layers["stone"].add(page.rect((x, 1000), (500, 1900)))
+layers["stone"].add(page.polygon([(500, 1000), (3000, 1000), (3000, 600), (500, 600)]))
+layers["ground"].add(page.rect((0, 2900), (4000, 100)))
+page.save()
+
+page, layers = picture("arch-cm.svg", "60cm", "40cm", "0 0 60 40")
+at = lambda r, t: (30 + r * math.cos(t), 35 - r * math.sin(t))
+for k in range(7):
+    a, b = k * math.pi / 7, (k + 1) * math.pi / 7
+    path = page.path(d=("M", *at(20, a)))
+    path.push_arc(at(20, b), 0, 20, large_arc=False, angle_dir="-", absolute=True)
+    path.push("L", *at(25, b))
+    path.push_arc(at(25, a), 0, 25, large_arc=False, angle_dir="+", absolute=True)
+    path.push("Z")
+    layers["stone"].add(path)
+for x in (5, 50):
+    layers["ground"].add(page.rect((x, 35), (5, 5)))
+page.save()
+
+page, layers = picture("turned-mm.svg", "100mm", "100mm", "0 0 100 100")
+turned = layers["stone"].add(page.g(transform="translate(50 80) rotate(-90) scale(2)"))
+turned.add(page.rect((0, -10), (10, 20)))
+layers["ground"].add(page.polyline([(10, 80), (90, 80), (90, 95), (10, 95), (10, 80)]))
+page.save()
+
+# Without a unit; a path left open, one drawn twice, what is no outline.
+page, layers = picture("faults-px.svg", "400", "300", "0 0 400 300")
+for _ in range(2):
+    layers["stone"].add(page.rect((100, 100), (50, 50)))
+layers["stone"].add(page.path(d="M 10 10 L 40 10 L 40 30"))
+layers["stone"].add(page.text("A-A", insert=(5, 5)))
+layers["ground"].add(page.rect((0, 150), (400, 20)))
+page.save()
+
+# Round corners and a hidden layer; a stone that is not where its neighbours are.
+page, layers = picture("faults-hidden-mm.svg", "400mm", "300mm", "0 0 400 300")
+layers["stone"].add(page.rect((100, 100), (50, 50)))
+layers["stone"].add(page.rect((200, 100), (50, 50), rx=5, ry=5))
+old = page.add(page.g(id="old", style="display:none"))
+old.add(page.rect((100, 100), (60, 60)))
+layers["ground"].add(page.rect((0, 150), (400, 20)))
+page.save()
+
+page, layers = picture("faults-empty-mm.svg", "400mm", "300mm", "0 0 400 300")
+layers["stone"].add(page.line((0, 0), (10, 10)))
+page.save()

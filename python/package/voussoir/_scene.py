@@ -320,7 +320,7 @@ def import_file(
     depth: float | None = None,
     layers: Mapping[str, str | Mapping[str, Any]] | None = None,
 ) -> Scene:
-    """Make a scene of files of other programs: COMPAS JSON, OBJ, DXF, 3DEC, PLY, STL.
+    """Make a scene of files of other programs: COMPAS JSON, OBJ, DXF, SVG, 3DEC, PLY, STL.
 
     Parameters
     ----------

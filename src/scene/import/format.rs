@@ -1,7 +1,7 @@
 //! Which format a file has.
 
 use super::{
-    stl,
+    stl, svg,
     text::{split, unmarked},
     threedec,
 };
@@ -19,6 +19,8 @@ pub enum Format {
     Dxf,
     /// Commands of 3DEC that make blocks.
     ThreeDec,
+    /// Scalable vector graphics, closed outlines.
+    Svg,
     /// Polygon file format (Stanford).
     Ply,
     /// Stereolithography.
@@ -34,6 +36,7 @@ impl fmt::Display for Format {
             Format::Obj => "OBJ",
             Format::Dxf => "DXF",
             Format::ThreeDec => "3DEC",
+            Format::Svg => "SVG",
             Format::Ply => "PLY",
             Format::Stl => "STL",
             Format::Grains => "grains",
@@ -55,6 +58,7 @@ impl Format {
                 Some("obj") => Some(Format::Obj),
                 Some("dxf") => Some(Format::Dxf),
                 Some("3ddat" | "3dec") => Some(Format::ThreeDec),
+                Some("svg") => Some(Format::Svg),
                 Some("ply") => Some(Format::Ply),
                 Some("stl") => Some(Format::Stl),
                 Some("csv" | "dump" | "liggghts" | "lammpstrj") => Some(Format::Grains),
@@ -63,7 +67,7 @@ impl Format {
             .or_else(|| Format::by_content(bytes))
             .ok_or_else(|| {
                 InputError::at(JsonPath::root(), "the format is unknown from both the extension and the content")
-                    .hint("known formats are COMPAS JSON, OBJ, DXF, 3DEC, PLY, STL, and tables or dumps of grains; name the file .json, .obj, .dxf, .3ddat, .ply, .stl, .csv or .dump")
+                    .hint("known formats are COMPAS JSON, OBJ, DXF, SVG, 3DEC, PLY, STL, and tables or dumps of grains; name the file .json, .obj, .dxf, .svg, .3ddat, .ply, .stl, .csv or .dump")
             })
     }
 
@@ -81,6 +85,8 @@ impl Format {
                 && split(text).nth(1).is_some_and(|l| l.trim_ascii() == b"SECTION"))
         {
             Some(Format::Dxf)
+        } else if svg::looks_like(text) {
+            Some(Format::Svg)
         } else if threedec::looks_like(text) {
             Some(Format::ThreeDec)
         } else if text.starts_with(b"ply\n") || text.starts_with(b"ply\r") {

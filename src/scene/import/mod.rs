@@ -6,6 +6,7 @@
 //! | OBJ | polygons as they are, objects and groups | an object, else a group, else a connected part |
 //! | DXF | ASCII and binary, closed polylines, 3DFACE and polyface meshes, inserted blocks | an outline, given a depth; a body |
 //! | 3DEC | `block create` (polyhedron, brick, prism, tetrahedron), `block fix`, `block property density` | a command |
+//! | SVG | closed paths, polygons, rectangles, circles; layers of Inkscape | an outline, given a depth |
 //! | PLY | ASCII and binary, both byte orders | a file |
 //! | STL | ASCII and binary | a `solid`, a binary file |
 //! | grains | tables (CSV), dumps of LIGGGHTS and LAMMPS | a sphere, a clump of them |
@@ -34,6 +35,7 @@ mod options;
 mod ply;
 mod raw;
 mod stl;
+mod svg;
 mod text;
 mod threedec;
 
@@ -168,6 +170,7 @@ fn read(
             Format::Obj => obj::read(bytes, &stem),
             Format::Dxf => dxf::read(bytes, options),
             Format::ThreeDec => threedec::read(bytes, options),
+            Format::Svg => svg::read(bytes, options),
             Format::Ply => ply::read(bytes, &stem),
             Format::Stl => stl::read(bytes, &stem),
             Format::Grains => grains::read(bytes),

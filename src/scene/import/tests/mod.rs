@@ -7,6 +7,7 @@ mod dxf;
 mod mesh_formats;
 mod options;
 mod real;
+mod svg;
 mod threedec;
 
 use super::*;
