@@ -2,7 +2,7 @@
 
 use super::{
     super::raw::{Solid, compact, parts},
-    Entity,
+    entity::Entity,
     place::Place,
 };
 use base::error::InputError;

@@ -4,6 +4,7 @@
 //! What entities hold is told in Autodesk's DXF reference ("ENTITIES Section").
 
 mod body;
+mod entity;
 mod pairs;
 mod place;
 
@@ -18,6 +19,7 @@ use base::{
     limits,
 };
 use body::Faces;
+use entity::{Entity, entities};
 use pairs::Pair;
 use place::Place;
 use std::collections::{BTreeMap, HashMap};
@@ -31,52 +33,6 @@ const POLYFACE: i64 = 64;
 /// Inserted blocks within inserted blocks go no deeper. More: the stack of a thread ends. Fewer: drawings
 /// of assemblies of assemblies are refused.
 const NESTED: usize = 64;
-
-/// An entity: its type and what follows up to the next.
-#[derive(Clone, Copy)]
-struct Entity<'a> {
-    kind: &'a Pair<'a>,
-    body: &'a [Pair<'a>],
-}
-
-impl<'a> Entity<'a> {
-    /// What belongs to the entity itself: the vertices of a POLYLINE follow as entities of their own.
-    fn head(&self) -> &'a [Pair<'a>] {
-        &self.body[..self.body.iter().position(|p| p.code == 0).unwrap_or(self.body.len())]
-    }
-
-    fn pair(&self, code: i32) -> Option<&'a Pair<'a>> {
-        self.head().iter().find(|p| p.code == code)
-    }
-
-    fn word(&self, code: i32) -> Option<&'a str> {
-        self.pair(code).map(|p| &*p.value)
-    }
-
-    fn flags(&self) -> i64 {
-        self.word(70).and_then(|w| w.parse().ok()).unwrap_or(0)
-    }
-
-    fn number(&self, code: i32, missing: f64) -> Result<f64, InputError> {
-        self.pair(code).map_or(Ok(missing), Pair::number)
-    }
-
-    /// The point of the codes `code`, `code` + 10, `code` + 20.
-    fn point(&self, code: i32) -> Result<[f64; 3], InputError> {
-        Ok([self.number(code, 0.0)?, self.number(code + 10, 0.0)?, self.number(code + 20, 0.0)?])
-    }
-
-    /// Where its own coordinates lie: those of plane entities are seen along their normal.
-    fn facing(&self) -> Result<Option<Place>, InputError> {
-        let normal = [self.number(210, 0.0)?, self.number(220, 0.0)?, self.number(230, 1.0)?];
-        Ok(match normal {
-            [0.0, 0.0, z] if z > 0.0 => Some(Place::default()),
-            // Seen from behind: x points to the other side.
-            [0.0, 0.0, z] if z < 0.0 => Some(Place::scaled([-1.0, 1.0, -1.0])),
-            _ => None,
-        })
-    }
-}
 
 /// The blocks of a DXF file.
 pub(super) fn read(bytes: &[u8], options: &ImportOptions) -> Result<Raw, InputError> {
@@ -291,15 +247,6 @@ fn section<'a>(pairs: &'a [Pair<'a>], name: &str) -> &'a [Pair<'a>] {
     let rest = begin.map_or(&[][..], |b| &pairs[b + 2..]);
     let end = rest.iter().position(|p| p.code == 0 && p.value == "ENDSEC").unwrap_or(rest.len());
     &rest[..end]
-}
-
-fn entities<'a>(pairs: &'a [Pair<'a>]) -> Vec<Entity<'a>> {
-    let begin = pairs.iter().position(|p| p.code == 0).unwrap_or(pairs.len());
-    let goes_on = |next: &Pair| next.code != 0 || matches!(&*next.value, "VERTEX" | "SEQEND");
-    pairs[begin..]
-        .chunk_by(|_, next| goes_on(next))
-        .filter_map(|chunk| chunk.split_first().map(|(kind, body)| Entity { kind, body }))
-        .collect()
 }
 
 /// The blocks of the section BLOCKS by name.
