@@ -6,14 +6,21 @@ use base::{
     limits,
 };
 use check::proof::work::Work;
+use data_encoding::BASE64;
 use model::interface::prepare;
 use report::{
+    imported::examine,
     page, tell,
     text::{Asked, Layout, TextOptions, render},
     view::{View, frames},
 };
+use scene::{
+    Friction,
+    import::{ImportOptions, LayerRule, import_bytes},
+};
 use serde::Deserialize;
 use serde_json::{Value, json};
+use std::collections::BTreeMap;
 
 /// What is asked of what.
 #[derive(Deserialize)]
@@ -25,6 +32,58 @@ struct Request {
     scene: String,
     /// The question as it stands in a saved result.
     question: Question,
+}
+
+/// A file of another program, and what is said of it.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Foreign {
+    /// The file's name, which tells its format.
+    name: String,
+    /// Its bytes, in base64.
+    data: String,
+    /// Coefficient of friction of every joint.
+    friction: Option<f64>,
+    /// Thickness of what is drawn in a plane, m.
+    depth: Option<f64>,
+    /// Metres in a unit of the file, where it does not say.
+    scale: Option<f64>,
+    /// Gap that joints may have, relative to the smaller block's size.
+    gap: Option<f64>,
+    /// Blocks whose lowest corner lies below this height are held, m.
+    support_below: Option<f64>,
+    /// What layers stand for.
+    #[serde(default)]
+    layers: BTreeMap<String, LayerRule>,
+}
+
+/// Makes a scene of a file of another program: `{"name", "data", …}`. The reply has the `scene` and what is
+/// `said` of it, or an `error`.
+pub fn import(request: &[u8]) -> Value {
+    imported(request).unwrap_or_else(|e| json!({ "error": e.to_string() }))
+}
+
+fn imported(request: &[u8]) -> Result<Value, InputError> {
+    let root = |e: &dyn std::fmt::Display| InputError::at(JsonPath::root(), e.to_string());
+    let Foreign { name, data, friction, depth, scale, gap, support_below, layers } =
+        serde_json::from_slice(request).map_err(|e| root(&e))?;
+    let bytes = BASE64.decode(data.as_bytes()).map_err(|e| root(&e))?;
+    let friction = friction.map(Friction::Coefficient);
+    let options = ImportOptions {
+        friction,
+        depth,
+        scale,
+        gap,
+        support_below,
+        layers,
+        ..ImportOptions::default()
+    };
+    let imported = import_bytes(&name, &bytes, &options)?;
+    let examined = examine(&imported, &options, &|| false);
+    let notes = imported.findings.iter().chain(&examined.findings).map(|f| &f.text);
+    let said: Vec<&String> =
+        std::iter::once(&examined.summary).chain(notes).chain(&examined.broken).collect();
+    Ok(json!({ "scene": imported.scene.to_value().map_err(|e| root(&e))?, "said": said }))
 }
 
 /// Answers a question about a scene: `{"name", "scene", "question"}`. The reply has the `result` that

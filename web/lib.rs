@@ -10,7 +10,7 @@ mod ask;
 mod check_text;
 
 #[cfg(feature = "solver")]
-pub use ask::ask;
+pub use ask::{ask, import};
 pub use check_text::check;
 
 use std::alloc::Layout;
@@ -83,4 +83,15 @@ pub unsafe extern "C" fn check_result(at: *const u8, length: usize) -> u64 {
 pub unsafe extern "C" fn ask_question(at: *const u8, length: usize) -> u64 {
     // SAFETY: what the caller promises.
     unsafe { reply(at, length, |text| ask(text).to_string()) }
+}
+
+/// [`import`] of a file.
+///
+/// # Safety
+/// So many bytes at that place are there to be read.
+#[cfg(feature = "solver")]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn import_file(at: *const u8, length: usize) -> u64 {
+    // SAFETY: what the caller promises.
+    unsafe { reply(at, length, |text| import(text).to_string()) }
 }

@@ -67,7 +67,12 @@ fn made(
     threads: usize,
     watch: &Watch,
 ) -> Result<(HeapResult, Heap), Trouble> {
-    let control = Control { law: Law::Associative, keep_all, deadline: watch.deadline(None) };
+    let control = Control {
+        law: Law::Associative,
+        keep_all,
+        deadline: watch.deadline(None),
+        ..Control::default()
+    };
     let statics = (!skip_margin).then_some(&control);
     let heap = grown(protocol, seed, &Growing { own: None, statics, threads }, &mut |flow| {
         watch.tell(flow.time, 0.0, || {

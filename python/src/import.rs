@@ -12,7 +12,7 @@ use voussoir::{
 /// Makes a scene from files (`paths`), or from one that is in memory (`name`, `bytes`). Beside it
 /// stand the findings on the way.
 #[pyfunction]
-#[pyo3(signature = (paths, *, name=None, data=None, supports=Vec::new(), support_below=None, support_files=Vec::new(), friction=None, density=None, scale=None, up=None, gap=None, angle_deg=None, stored_interfaces=true, depth=None, support_layers=Vec::new()))]
+#[pyo3(signature = (paths, *, name=None, data=None, supports=Vec::new(), support_below=None, support_files=Vec::new(), friction=None, density=None, scale=None, up=None, gap=None, angle_deg=None, stored_interfaces=true, depth=None, layers="{}"))]
 #[allow(clippy::too_many_arguments, clippy::type_complexity)]
 pub fn import_scene(
     py: Python,
@@ -30,13 +30,17 @@ pub fn import_scene(
     angle_deg: Option<f64>,
     stored_interfaces: bool,
     depth: Option<f64>,
-    support_layers: Vec<String>,
+    layers: &str,
 ) -> PyResult<(Scene, Vec<(String, String, bool, bool)>)> {
     let up = up.map(upwards).transpose().map_err(|e| Trouble::from(e).raise(py))?;
     let friction = friction.map(|mu| match mu == f64::INFINITY {
         true => Friction::Infinite,
         false => Friction::Coefficient(mu),
     });
+    let layers = serde_json::from_str(layers).map_err(|e| {
+        let refused = InputError::at(JsonPath::root(), format!("layers: {e}"));
+        Trouble::from(refused).raise(py)
+    })?;
     let options = ImportOptions {
         supports,
         support_below,
@@ -49,7 +53,7 @@ pub fn import_scene(
         angle_deg,
         stored_interfaces,
         depth,
-        support_layers,
+        layers,
         ..ImportOptions::default()
     };
     let read = || match &data {

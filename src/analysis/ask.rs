@@ -185,6 +185,9 @@ fn limited(
     let settled = bound.outcome == Outcome::Impossible
         || (bound.outcome == Outcome::Found && bound.bracket.upper < 0.0);
     let dead = (!settled && !options.skip_dead).then(|| early.unwrap_or_else(dead));
+    if let Some(value) = bound.found() {
+        control.known(|| format!("carries at most {value:.6} × the live load"));
+    }
     let dry = coulomb::beside(model, &bound, dead.as_ref().map(|d| d.verdict), control);
     Ok(Limited { bound, dry, dead })
 }

@@ -5,6 +5,7 @@ use super::{
     Control,
     answer::{Combined, Door, InCombination},
     saved::of,
+    watch::Counted,
 };
 use base::error::{InputError, JsonPath};
 use check::{proof::combinations, question::CombinationsOptions};
@@ -27,7 +28,9 @@ pub fn combined(
     let places = combinations::asked(o, scene)?;
     let question = o.question(scene);
     let blocks = resolve_blocks(scene)?;
+    let counted = Counted::new(control.watcher, "combination", places.len());
     let list = parallel::try_map(0, &places, |&k| {
+        counted.next();
         let name = scene.combinations[k].name.clone();
         let scene = scene.in_combination(&name)?;
         let model = model.of_blocks(&scene, blocks.clone())?;

@@ -112,6 +112,7 @@ pub fn critical(scene: &Scene, range: &Range, control: &Control) -> Result<Criti
             notes.push(format!("time limit reached after {k} of {count} values of the scan: the rest of the range is not known"));
             break;
         }
+        control.doing(|| format!("value {} of {count} of the scan", k + 1));
         let answer = ask(value, *control);
         let outcome = answer
             .as_ref()

@@ -8,6 +8,7 @@ use super::{
     limit::{self, LoadFactor},
     tilt::{DryTilt, Tilt, tilt_near},
     warm_start::Near,
+    watch::Counted,
 };
 use base::{error::InputError, tolerance};
 use check::verdict::{
@@ -40,7 +41,9 @@ impl<'a> Tilts<'a> {
     pub fn bounds(&self, toward: &[Vector3<f64>]) -> Result<Vec<Tilt>, InputError> {
         let mut done: Vec<Tilt> = Vec::with_capacity(toward.len());
         let near = Near::default();
+        let counted = Counted::new(self.control.watcher, "direction", toward.len());
         for &toward in toward {
+            counted.next();
             let image = match self.original(&done, toward) {
                 Some((which, isometry)) => self.bound_from(&done[which], &isometry, toward)?,
                 None => None,
@@ -58,7 +61,9 @@ impl<'a> Tilts<'a> {
     /// # Errors
     /// As [`Tilt::add_dry`].
     pub fn add_dry(&self, tilts: &mut [Tilt], level: Option<Verdict>) -> Result<(), InputError> {
+        let counted = Counted::new(self.control.watcher, "dry friction, direction", tilts.len());
         for k in 0..tilts.len() {
+            counted.next();
             let (done, rest) = tilts.split_at_mut(k);
             let Some(own) = rest.first_mut() else { break };
             let image = match self.original(done, own.toward) {

@@ -3,6 +3,7 @@
 //! An attempt's worth is its bracket, recomputed from the scene; the engine's word is recorded and
 //! never decides.
 
+use crate::watch::{Watched, Watcher};
 use check::{
     terms::{Attempt, Law},
     verdict::{Forces, Rate, certificate},
@@ -23,11 +24,29 @@ pub struct Control {
     pub keep_all: bool,
     /// When to stop trying and return the best bracket so far.
     pub deadline: Deadline,
+    /// Who hears how far the work is.
+    pub watcher: Watcher,
+}
+
+impl Control {
+    /// Says what is known already.
+    pub(crate) fn known(&self, text: impl FnOnce() -> String) {
+        if let Some(hear) = self.watcher {
+            hear(Watched::Known(text()));
+        }
+    }
+
+    /// Says what is being done.
+    pub(crate) fn doing(&self, text: impl FnOnce() -> String) {
+        if let Some(hear) = self.watcher {
+            hear(Watched::Doing(text()));
+        }
+    }
 }
 
 impl Default for Control {
     fn default() -> Self {
-        Self { law: Law::Coulomb, keep_all: false, deadline: Deadline::NEVER }
+        Self { law: Law::Coulomb, keep_all: false, deadline: Deadline::NEVER, watcher: None }
     }
 }
 

@@ -42,6 +42,7 @@ pub mod state;
 pub mod thrust;
 pub mod tilt;
 mod warm_start;
+mod watch;
 mod without;
 
 pub use agreement::agreement;
@@ -73,6 +74,7 @@ pub use rocking::Rocking;
 pub use stability::{Packing, Stability, stability};
 pub use stages::Stages;
 pub use tilt::{Tilt, tilt};
+pub use watch::{Watched, Watcher};
 pub use without::{Left, Without};
 pub use {
     ask::ask_watched,

@@ -49,6 +49,7 @@ pub(super) fn meet(
             return Err(InputError::at(JsonPath::root(), "time limit reached"));
         }
         probes += 1;
+        control.doing(|| format!("value {probes}: {value}"));
         let scene = scene.with_field(&o.vary, value)?;
         let model = prepare_until(&scene, &|| control.deadline.is_over())?;
         let answer = door(&o.ask, &scene, &model, control)?;

@@ -13,6 +13,7 @@ use super::{
     Assessment, Control, Law, LoadFactor, MovingOptions, Proved, assess, coulomb,
     coulomb::{DryLoadFactor, Found},
     limit,
+    watch::Counted,
 };
 use base::{
     error::{InputError, JsonPath},
@@ -183,7 +184,12 @@ impl Asked<'_> {
     }
 
     fn bounds(&self, list: &[Position]) -> Result<Vec<Stood>, InputError> {
-        Ok(each(list, |p| self.bound(p))?.into_iter().flatten().collect())
+        let counted = Counted::new(self.control.watcher, "position", list.len());
+        let ask = |p: &Position| {
+            counted.next();
+            self.bound(p)
+        };
+        Ok(each(list, ask)?.into_iter().flatten().collect())
     }
 
     /// A position between those that were asked at which one of their mechanisms allows less than the
@@ -264,6 +270,8 @@ impl Asked<'_> {
         open.sort_by(|&a, &b| height(&positions[a]).total_cmp(&height(&positions[b])));
         let mut asked_at = None;
         while !open.is_empty() {
+            let left = open.len();
+            self.control.doing(|| format!("dry friction, {left} positions left"));
             if let Some(at) = *floor
                 && asked_at != *floor
             {

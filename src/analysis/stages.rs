@@ -18,6 +18,7 @@ use super::{
     doubt,
     part_cache::Known,
     thrust::{ThrustEnd, level, outwards, thrust},
+    watch::Counted,
 };
 use base::error::{InputError, JsonPath};
 use check::{
@@ -89,7 +90,9 @@ pub(super) fn stages(
         None => AskedStages::OfScene,
     };
     let list = assembly::asked_stages(asked, scene, &model.assembly)?;
+    let counted = Counted::new(control.watcher, "stage", list.len());
     let answered = parallel::try_map(0, &list, |stage| {
+        counted.next();
         staged(options, scene, (model, stage), &known, (control, door))
     });
     let stages = answered.map_err(|e| {

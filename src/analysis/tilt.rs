@@ -161,6 +161,9 @@ impl Tilt {
         control: &Control,
     ) -> Result<(), InputError> {
         if coulomb::is_asked(&self.load_factor, level, control) {
+            if let Some(bound) = self.angle_deg() {
+                control.known(|| format!("falls at {bound:.4}° at most"));
+            }
             let load_factor = dry(model, self, level, control)?;
             let (load_factor, model) = proved(model, self.toward, load_factor, |l| l.value)?;
             self.dry = Some(DryTilt { load_factor, model });

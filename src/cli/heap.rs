@@ -96,7 +96,12 @@ pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
     let inside = parallel::inside(threads, outputs.len());
     let one = |(k, outputs): &(usize, Outputs)| -> anyhow::Result<(HeapResult, Option<View>)> {
         let seed = args.seed + *k as u64;
-        let control = Control { law: Law::Associative, keep_all: args.common.keep_all, deadline };
+        let control = Control {
+            law: Law::Associative,
+            keep_all: args.common.keep_all,
+            deadline,
+            ..Control::default()
+        };
         let old = there().find_map(|p| match p {
             Piece::Heap(heap) if heap.seed == seed => Some(&**heap),
             _ => None,

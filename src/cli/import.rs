@@ -1,13 +1,36 @@
 //! `voussoir import`
 
 use super::{args::Import, claim, deadline, exit::Exit, output::Sink, progress::Stage, terminal};
+use std::collections::BTreeMap;
 use voussoir::{
-    import::{ImportOptions, import_files},
+    error::{InputError, JsonPath},
+    import::{ImportOptions, LayerRule, import_files},
+    limits,
     report::{imported::examine, json},
 };
 
+/// The layers' rules of `--layers` and `--layer`; the latter count where both name a layer.
+fn layers(args: &Import) -> anyhow::Result<BTreeMap<String, LayerRule>> {
+    let mut rules = BTreeMap::new();
+    if let Some(path) = &args.layers {
+        let bytes = limits::read_file(path, limits::PER_BYTE)?;
+        rules = serde_json::from_slice(&bytes).map_err(|e| InputError {
+            file: Some(path.display().to_string()),
+            position: Some((e.line(), e.column())),
+            ..InputError::at(JsonPath::root(), e.to_string())
+                .hint("an object like {\"ground\": \"support\", \"stone\": {\"density\": 2400}}")
+        })?;
+    }
+    rules.extend(args.layer.iter().cloned());
+    Ok(rules)
+}
+
 pub fn run(args: &Import) -> anyhow::Result<Exit> {
-    args.files.iter().chain(&args.supports_file).try_for_each(|file| claim::read(file))?;
+    args.files
+        .iter()
+        .chain(&args.supports_file)
+        .chain(&args.layers)
+        .try_for_each(|file| claim::read(file))?;
     let sink = Sink::open(args.output.as_deref())?;
     let options = ImportOptions {
         supports: args.support.clone(),
@@ -16,7 +39,7 @@ pub fn run(args: &Import) -> anyhow::Result<Exit> {
         friction: args.friction,
         density: args.density,
         depth: args.depth,
-        support_layers: args.support_layer.clone(),
+        layers: layers(args)?,
         scale: args.scale,
         up: args.up,
         gap: args.gap,

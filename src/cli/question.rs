@@ -7,13 +7,14 @@ use super::{
     input,
     output::Sink,
     pictures::Pictures,
+    progress::Watching,
     report, terminal,
     terminal::Terminal,
 };
 use anyhow::bail;
 use std::{path::Path, time::Instant};
 use voussoir::{
-    analysis::{Answer, Control, Difference, Law, Question, Watch, ask, ask_watched},
+    analysis::{Answer, Control, Difference, Law, Question, Watch, Watcher, ask, ask_watched},
     deadline::{Deadline, clock},
     dynamics::Frame,
     error::{Finding, FindingCode, InputError},
@@ -199,7 +200,13 @@ impl<'a> Session<'a> {
 
     /// How programs are run; how joints slide is for the question to say.
     pub fn control(&self) -> Control {
-        Control { keep_all: self.common.keep_all, deadline: self.deadline, ..Control::default() }
+        let watcher: Watcher = if self.shows_progress() { Some(Watching::hear) } else { None };
+        Control {
+            keep_all: self.common.keep_all,
+            deadline: self.deadline,
+            watcher,
+            ..Control::default()
+        }
     }
 
     /// The law of sliding that was asked for.
@@ -209,6 +216,7 @@ impl<'a> Session<'a> {
 
     /// Asks a question about the scene.
     pub fn ask(&self, question: &Question) -> anyhow::Result<Answer> {
+        let _watch = self.shows_progress().then(Watching::begin);
         ask(question, &self.scene, &self.model, &self.control()).map_err(|e| self.refuse(e))
     }
 

@@ -216,7 +216,7 @@ fn real_assemblies_do_what_is_known_of_them() {
         let options = import::ImportOptions {
             supports: supports.iter().map(|s| s.to_string()).collect(),
             friction: Some(voussoir::scene::Friction::Coefficient(friction)),
-            up,
+            up: Some(up),
             ..import::ImportOptions::default()
         };
         let scene = import::import_file(&folder.join(format!("{name}.json")), &options)

@@ -142,7 +142,7 @@ fn samples_of_coupled_rigid_block_analysis() {
                 supports: supports.iter().map(|s| s.to_string()).collect(),
                 friction: Some(Friction::Coefficient(mu)),
                 density: Some(density),
-                up,
+                up: Some(up),
                 ..ImportOptions::default()
             };
             let scene = import::import_file(format!("{folder}{name}.json").as_ref(), &options)

@@ -47,7 +47,7 @@ fn rings(inner: usize, outer: usize, unit: (u8, f64)) -> Model {
     );
     let options = ImportOptions {
         depth: Some(0.5),
-        support_layers: vec!["ground".into()],
+        layers: [("ground".into(), "support".parse().expect("a rule"))].into(),
         friction: Some(Friction::Coefficient(0.6)),
         ..ImportOptions::default()
     };

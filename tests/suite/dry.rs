@@ -3,16 +3,17 @@
 
 use crate::ask;
 use serde_json::{Value, json};
-use std::process::Command;
+use std::{process::Command, sync::Mutex};
 use trials::cross::{self, Stranger};
 use voussoir::{
     analysis::{
-        Answer, Assessment, Control, Law, LimitOptions, Outcome, Proved, Question, TiltOptions,
-        assess,
+        self, Answer, Assessment, Control, Law, LimitOptions, Outcome, Proved, Question,
+        TiltOptions, Watched, assess,
         coulomb::{self, Found},
         limit, stability, tilt,
     },
     deadline::Deadline,
+    interface::prepare,
     proof::{self, answer::FactorStatus},
     report::text,
     scene::{Scene, read_str},
@@ -642,4 +643,30 @@ fn scenes_that_were_left_open_have_an_answer() {
     let evidence = Evidence::new(&falls.forces, &falls.rates);
     assert!(claim::verify(&model, &Claim::Unstable, evidence).proved());
     assert!(!claim::verify(&model, &Claim::Impossible, evidence).proved());
+}
+
+/// Who watches hears of the bound before the value that takes longer, and changes nothing.
+#[test]
+fn a_long_question_says_what_it_has() {
+    static HEARD: Mutex<Vec<Watched>> = Mutex::new(Vec::new());
+    let heard = || HEARD.lock().unwrap();
+    let scene =
+        read_str("groove", include_str!("../../structures/block-in-groove.json")).unwrap().0;
+    let model = prepare(&scene).unwrap();
+    let question = Question::Limit(LimitOptions::default());
+    let ask = |watcher| {
+        let control = Control { watcher, ..Control::default() };
+        match analysis::ask(&question, &scene, &model, &control).unwrap() {
+            Answer::Limit(l) => l.dry.and_then(|d| d.value),
+            other => panic!("{other:?}"),
+        }
+    };
+    let alone = ask(None);
+    assert!(heard().is_empty());
+    assert_eq!(ask(Some(|w| HEARD.lock().unwrap().push(w))), alone);
+    let known = |w: &Watched| matches!(w, Watched::Known(t) if t.starts_with("carries at most"));
+    let first = heard().iter().position(known).expect("the bound");
+    let dry = |w: &Watched| matches!(w, Watched::Doing(t) if t.contains("dry friction"));
+    assert!(heard().iter().skip(first).any(dry), "{:?}", heard());
+    assert!(!heard().iter().take(first).any(dry));
 }

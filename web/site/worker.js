@@ -14,7 +14,7 @@ onmessage = async ({ data: { kind, request } }) => {
   try {
     // A module whose call failed is not used again: each call has its own.
     const module = await voussoir(await ready);
-    postMessage(kind === "check" ? module.check(request) : module.ask(request));
+    postMessage(module[kind](request));
   } catch (error) {
     postMessage({ error: String(error.message ?? error) });
   }

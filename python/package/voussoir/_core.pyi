@@ -202,6 +202,6 @@ def import_scene(
     angle_deg: float | None = None,
     stored_interfaces: bool = True,
     depth: float | None = None,
-    support_layers: Sequence[str] = ...,
+    layers: str = ...,
 ) -> tuple[Scene, list[_Finding]]: ...
 def command(program: str | os.PathLike[str], arguments: Sequence[str]) -> int: ...

@@ -318,9 +318,9 @@ def import_file(
     angle_deg: float | None = None,
     stored_interfaces: bool = True,
     depth: float | None = None,
-    support_layers: Iterable[str] = (),
+    layers: Mapping[str, str | Mapping[str, Any]] | None = None,
 ) -> Scene:
-    """Make a scene of files of other programs: COMPAS JSON, OBJ, DXF, PLY, STL.
+    """Make a scene of files of other programs: COMPAS JSON, OBJ, DXF, SVG, 3DEC, PLY, STL.
 
     Parameters
     ----------
@@ -347,8 +347,10 @@ def import_file(
         Keep those of the file in place of contacts that are detected.
     depth : float, optional
         Thickness of the blocks of a plane drawing (DXF), m.
-    support_layers : names
-        Layers of a drawing whose blocks are held.
+    layers : mapping of str or mapping, optional
+        What layers of a drawing stand for: ``"support"``, ``"block,density=2400"``,
+        ``"tie,strength=50000"``, ``"load,force=0:-1000"``, ``"ignore"``, or the same as a mapping
+        (``{"role": "block", "density": 2400}``). Layers that are not named hold blocks.
 
     Returns
     -------
@@ -388,7 +390,7 @@ def import_file(
         angle_deg=angle_deg,
         stored_interfaces=stored_interfaces,
         depth=depth,
-        support_layers=list(support_layers),
+        layers=json.dumps(dict(layers or {})),
     )
     return Scene._of(scene)
 

@@ -153,6 +153,9 @@ fn lowered(scene: &Scene, mut contacts: Contacts, control: &Control, answer: &mu
         if control.deadline.is_over() {
             break;
         }
+        control.doing(|| {
+            format!("the value with dry friction, step {} of {}", stage + 1, STAGES.len())
+        });
         let settings =
             Settings { tolerance: TOLERANCES[usize::from(stage >= LEAST_STAGES)], ..settings };
         let point = within_strength(&mut contacts, interfaces, |c| {

@@ -113,6 +113,8 @@ impl Probe<'_> {
         if self.control.deadline.is_over() {
             return None;
         }
+        self.control
+            .doing(|| format!("dry friction: whether it rests at {lambda:.6} of the live load"));
         Some((lambda, within(&(self.at)(lambda), self.control, self.work())))
     }
 

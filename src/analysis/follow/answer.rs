@@ -32,7 +32,7 @@ use model::{
 };
 use nalgebra::Vector3;
 use std::{
-    cell::RefCell,
+    cell::{Cell, RefCell},
     collections::{HashMap, HashSet},
 };
 
@@ -297,8 +297,9 @@ fn answer(
             (reaction::least(model, forces, rates), forces.clone(), rates.clone())
         })
     };
-    let heard = RefCell::new((Heard::default(), goes_on));
+    let (heard, steps) = (RefCell::new((Heard::default(), goes_on)), Cell::new(1));
     let hears = |path: &dyn Fn() -> Path| {
+        control.doing(|| format!("step {} of the path", steps.replace(steps.get() + 1)));
         let (heard, goes_on) = &mut *heard.borrow_mut();
         let Some(goes_on) = goes_on else { return };
         let mut new = path();

@@ -2,11 +2,14 @@
 
 use super::{
     Outside, Pictures, Tables, TimeLimit,
-    parse::{Written, assignment, finite, friction, not_negative, output, positive, up},
+    parse::{Written, assignment, finite, friction, layer, not_negative, output, positive, up},
 };
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
-use voussoir::{import::Up, scene::Friction};
+use voussoir::{
+    import::{LayerRule, Up},
+    scene::Friction,
+};
 
 #[derive(Debug, Args)]
 pub struct Open {
@@ -107,9 +110,16 @@ pub struct Import {
     /// File whose blocks are all held in place; may be given several times.
     #[arg(long, value_name = "FILE")]
     pub supports_file: Vec<PathBuf>,
-    /// Layer of a drawing (DXF) whose blocks are held in place; may be given several times.
-    #[arg(long, value_name = "NAME")]
-    pub support_layer: Vec<String>,
+    /// What a layer of a drawing stands for; may be given several times.
+    ///
+    /// `NAME=block,density=2400,depth=0.5`, `NAME=support`, `NAME=tie,strength=50000` (lines from
+    /// block to block), `NAME=load,force=0:-1000` (points; along x and y of the drawing, N, live) or
+    /// `NAME=ignore`. Layers that are not named hold blocks.
+    #[arg(long, value_name = "NAME=ROLE", value_parser = layer)]
+    pub layer: Vec<(String, LayerRule)>,
+    /// JSON file with the same: an object of rules by layer.
+    #[arg(long, value_name = "FILE")]
+    pub layers: Option<PathBuf>,
     /// Thickness of the blocks of a plane drawing (DXF), in m.
     #[arg(long, value_name = "D", allow_negative_numbers = true, value_parser = positive)]
     pub depth: Option<f64>,

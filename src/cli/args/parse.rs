@@ -5,7 +5,12 @@ use std::{
     ffi::OsString,
     path::{Path, PathBuf},
 };
-use voussoir::{analysis::SupportMove, ground::Pulse, import::Up, scene::Friction};
+use voussoir::{
+    analysis::SupportMove,
+    ground::Pulse,
+    import::{LayerRule, Up},
+    scene::Friction,
+};
 
 /// What is required of an answer.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -217,6 +222,13 @@ pub fn assignment(text: &str) -> Result<(String, String), String> {
         Some((key, value)) if !key.is_empty() => Ok((key.into(), value.into())),
         _ => Err("not of the form key=value".into()),
     }
+}
+
+/// `NAME=ROLE[,KEY=VALUE]…`: a layer of a drawing and what it stands for.
+pub fn layer(text: &str) -> Result<(String, LayerRule), String> {
+    // Names of layers hold no `=`.
+    let (name, rule) = text.split_once('=').ok_or("not NAME=ROLE, like ground=support")?;
+    Ok((name.into(), rule.parse()?))
 }
 
 pub fn up(text: &str) -> Result<Up, String> {

@@ -22,9 +22,12 @@ pub fn hull(points: &[[f64; 3]]) -> Option<Hull> {
     (volume > 0.0).then_some(Hull { vertices, faces: faces(triangles), volume })
 }
 
+/// Corners, and the corners of each face.
+pub type Corners = (Vec<[f64; 3]>, Vec<Vec<usize>>);
+
 /// Corners of the hull of points, where they are, and triangles, counter-clockwise seen from outside;
 /// `None` where the points lie in a plane.
-pub fn corners(points: &[[f64; 3]]) -> Option<(Vec<[f64; 3]>, Vec<Vec<usize>>)> {
+pub fn corners(points: &[[f64; 3]]) -> Option<Corners> {
     let (corners, triangles) = raw(points)?;
     Some((corners.iter().map(|c| [c.x, c.y, c.z]).collect(), faces(triangles)))
 }

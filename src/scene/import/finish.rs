@@ -5,7 +5,7 @@ use super::{
     raw::{Grain, Ground, Raw, Solid, list, tally},
     surface::{self, Surface},
 };
-use crate::{Ball, BlockSpec, Material, Scene, Shape};
+use crate::{At, Ball, BlockSpec, Material, Scene, Shape};
 use base::{
     error::{Finding, FindingCode, InputError, JsonPath},
     number::roundest,
@@ -64,6 +64,19 @@ pub(super) fn scene(mut files: Vec<Raw>, options: &ImportOptions) -> Result<Impo
             ground.normal = up.rotate(ground.normal);
             let line = ground.line;
             add(plane(ground), Some(line), Vec::new());
+        }
+        for mut member in file.members {
+            for end in member.tie.iter_mut().flat_map(|t| &mut t.between) {
+                place(end.at.as_mut_slice(), &member.id)?;
+            }
+            scene.members.push(member);
+        }
+        for mut load in file.loads {
+            if let Some(At::Point(at)) = &mut load.at {
+                place(std::slice::from_mut(at), load.block.as_deref().unwrap_or("load"))?;
+            }
+            load.force = load.force.map(|f| up.rotate(f));
+            scene.loads.live.push(load);
         }
         if !options.stored_interfaces {
             unwanted += file.interfaces.len();
@@ -212,6 +225,12 @@ fn name_files_apart(files: &mut [Raw]) -> Result<Vec<Finding>, InputError> {
         for end in file.interfaces.iter_mut().flat_map(|i| &mut i.between) {
             *end = rename(end);
         }
+        for member in &mut file.members {
+            member.id = rename(&member.id);
+            let ends = member.tie.iter_mut().flat_map(|t| &mut t.between);
+            ends.flat_map(|e| &mut e.block).for_each(|b| *b = rename(b));
+        }
+        file.loads.iter_mut().flat_map(|l| &mut l.block).for_each(|b| *b = rename(b));
         prefixes.push(prefix);
     }
     if let Some(still) = self::clash(files) {

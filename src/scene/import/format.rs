@@ -3,7 +3,7 @@
 use super::{
     stl,
     text::{split, unmarked},
-    xml,
+    threedec, xml,
 };
 use base::error::{InputError, JsonPath};
 use std::{fmt, path::Path};
@@ -17,6 +17,10 @@ pub enum Format {
     Obj,
     /// Drawing exchange format (ASCII), closed outlines.
     Dxf,
+    /// Commands of 3DEC that make blocks.
+    ThreeDec,
+    /// Scalable vector graphics, closed outlines.
+    Svg,
     /// Polygon file format (Stanford).
     Ply,
     /// Stereolithography.
@@ -39,6 +43,8 @@ impl fmt::Display for Format {
             Format::Compas => "COMPAS JSON",
             Format::Obj => "OBJ",
             Format::Dxf => "DXF",
+            Format::ThreeDec => "3DEC",
+            Format::Svg => "SVG",
             Format::Ply => "PLY",
             Format::Stl => "STL",
             Format::Mjcf => "MJCF",
@@ -63,6 +69,8 @@ impl Format {
                 Some("json") => Some(Format::Compas),
                 Some("obj") => Some(Format::Obj),
                 Some("dxf") => Some(Format::Dxf),
+                Some("3ddat" | "3dec") => Some(Format::ThreeDec),
+                Some("svg") => Some(Format::Svg),
                 Some("ply") => Some(Format::Ply),
                 Some("stl") => Some(Format::Stl),
                 Some("gltf" | "glb") => Some(Format::Gltf),
@@ -72,7 +80,7 @@ impl Format {
             .or_else(|| Format::by_content(bytes))
             .ok_or_else(|| {
                 InputError::at(JsonPath::root(), "the format is unknown from both the extension and the content")
-                    .hint("known formats are COMPAS JSON, OBJ, DXF, PLY, STL, glTF, MJCF, URDF, SDF, and tables or dumps of grains; name the file .json, .obj, .dxf, .ply, .stl, .gltf, .glb, .csv or .dump; the root of an XML file is <mujoco>, <robot> or <sdf>")
+                    .hint("known formats are COMPAS JSON, OBJ, DXF, SVG, 3DEC, PLY, STL, glTF, MJCF, URDF, SDF, and tables or dumps of grains; name the file .json, .obj, .dxf, .svg, .3ddat, .ply, .stl, .gltf, .glb, .csv or .dump; the root of an XML file is <mujoco>, <robot> or <sdf>")
             })
     }
 
@@ -86,6 +94,7 @@ impl Format {
                 "mujoco" => Some(Format::Mjcf),
                 "robot" => Some(Format::Urdf),
                 "sdf" => Some(Format::Sdf),
+                "svg" | "svg:svg" => Some(Format::Svg),
                 _ => None,
             }
         } else if bytes.starts_with(b"glTF") || is_gltf(text) {
@@ -99,6 +108,8 @@ impl Format {
                 && split(text).nth(1).is_some_and(|l| l.trim_ascii() == b"SECTION"))
         {
             Some(Format::Dxf)
+        } else if threedec::looks_like(text) {
+            Some(Format::ThreeDec)
         } else if text.starts_with(b"ply\n") || text.starts_with(b"ply\r") {
             Some(Format::Ply)
         } else if stl::looks_like(bytes) || stl::looks_like(text) {

@@ -4,7 +4,9 @@
 //! |---|---|---|
 //! | COMPAS JSON | Assembly, CRA_Assembly, BlockModel, lists of meshes; versions 0.x, 1 and 2 | a node of the graph, an element, a mesh |
 //! | OBJ | polygons as they are, objects and groups | an object, else a group, else a connected part |
-//! | DXF | ASCII, closed polylines of plane drawings | an outline, given a depth |
+//! | DXF | ASCII and binary, closed polylines, 3DFACE and polyface meshes, inserted blocks | an outline, given a depth; a body |
+//! | 3DEC | `block create` (polyhedron, brick, prism, tetrahedron), `block fix`, `block property density` | a command |
+//! | SVG | closed paths, polygons, rectangles, circles; layers of Inkscape | an outline, given a depth |
 //! | PLY | ASCII and binary, both byte orders | a file |
 //! | STL | ASCII and binary | a `solid`, a binary file |
 //! | MJCF, URDF, SDF | shapes that touch of rigid bodies; what is articulated is refused | a free body with all that is welded to it; a shape that is held |
@@ -23,11 +25,13 @@
 //! [`ImportOptions::scale`] × coordinates of the file.
 
 mod compas;
+mod drawing;
 mod dxf;
 mod finish;
 mod format;
 mod gltf;
 mod grains;
+mod layer;
 mod mesh;
 mod mjcf;
 mod obj;
@@ -38,7 +42,9 @@ mod rigid;
 mod sdf;
 mod stl;
 mod surface;
+mod svg;
 mod text;
+mod threedec;
 mod urdf;
 mod xml;
 
@@ -46,6 +52,7 @@ mod xml;
 mod tests;
 
 pub use format::Format;
+pub use layer::{LayerRule, Role};
 pub use mesh::{Reach, read_meshes};
 pub use options::{ImportOptions, Up};
 
@@ -174,6 +181,8 @@ fn read(
             Format::Compas => compas::read(bytes),
             Format::Obj => obj::read(bytes, &stem),
             Format::Dxf => dxf::read(bytes, options),
+            Format::ThreeDec => threedec::read(bytes, options),
+            Format::Svg => svg::read(bytes, options),
             Format::Ply => ply::read(bytes, &stem),
             Format::Stl => stl::read(bytes, &stem),
             Format::Grains => grains::read(bytes),

@@ -1,9 +1,9 @@
 //! What the user adds to a foreign file.
 
-use super::Format;
+use super::{Format, LayerRule};
 use crate::Friction;
 use base::error::{InputError, JsonPath};
-use std::path::PathBuf;
+use std::{collections::BTreeMap, path::PathBuf};
 
 /// What the user adds to a foreign file.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,8 +21,8 @@ pub struct ImportOptions {
     pub density: Option<f64>,
     /// Thickness of the blocks of a plane drawing (DXF), m in the scene.
     pub depth: Option<f64>,
-    /// Layers of a drawing (DXF) whose blocks are supports.
-    pub support_layers: Vec<String>,
+    /// What layers of a drawing (DXF) stand for; those that are not named hold blocks.
+    pub layers: BTreeMap<String, LayerRule>,
     /// Multiplies the coordinates: 0.001 for a file in millimetres. Where nothing is said, the unit that
     /// the file names, or metres.
     pub scale: Option<f64>,
@@ -50,7 +50,7 @@ impl Default for ImportOptions {
             friction: None,
             density: None,
             depth: None,
-            support_layers: Vec::new(),
+            layers: BTreeMap::new(),
             scale: None,
             up: None,
             format: None,
@@ -119,6 +119,9 @@ impl ImportOptions {
                 "finite and > 0",
                 "the thickness of a drawing's blocks in m",
             );
+        }
+        for (name, rule) in &self.layers {
+            rule.check_of(name)?;
         }
         if let Some(density) = self.density.filter(|&d| !positive(d)) {
             return refuse("density", density, "finite and > 0", "kg/m³; masonry is around 2000");

@@ -1,7 +1,7 @@
 //! What the readers of all formats hand over: blocks and interfaces in the coordinates of the file.
 
 use super::{ImportOptions, Up, surface::Surface};
-use crate::{InterfaceSpec, Material};
+use crate::{InterfaceSpec, Load, Material, Member};
 use base::{
     error::{Finding, FindingCode},
     plane::Sets,
@@ -32,6 +32,9 @@ pub(super) struct Raw {
     pub materials: BTreeMap<String, Material>,
     /// Surfaces of materials, by their names.
     pub surfaces: BTreeMap<String, Surface>,
+    pub members: Vec<Member>,
+    /// Live loads.
+    pub loads: Vec<Load>,
     pub findings: Vec<Finding>,
 }
 

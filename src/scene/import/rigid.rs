@@ -61,7 +61,7 @@ pub(super) enum Weight {
     /// kg.
     Mass(f64),
     /// Nothing: the body has its mass by itself.
-    Of,
+    None,
 }
 
 /// One shape of a body.
@@ -176,8 +176,11 @@ impl Made {
         let fault = |text: String, hint: &str| Err(text::error(body.line, text).hint(hint));
         let named = place(&body.id, body.line);
         if let Some(plane) = body.parts.iter().find(|p| matches!(p.form, Form::Plane)) {
-            return Err(text::error(plane.line, format!("body {named}: a plane on a body that moves"))
-                .hint("planes are for what is held: give the body a box"));
+            return Err(text::error(
+                plane.line,
+                format!("body {named}: a plane on a body that moves"),
+            )
+            .hint("planes are for what is held: give the body a box"));
         }
         let heft = if body.is_unweighed { None } else { Some(heft(&body)) };
         if heft.is_some_and(|h| h.mass.or(h.density).is_none_or(|m| m <= 0.0)) {
@@ -196,7 +199,9 @@ impl Made {
         let balls = parts.iter().filter(|p| matches!(p.form, Form::Sphere(_))).count();
         if balls > 0 && balls < parts.len() {
             return fault(
-                format!("body {named} has spheres beside other shapes, which no one block can have"),
+                format!(
+                    "body {named} has spheres beside other shapes, which no one block can have"
+                ),
                 "make it of spheres alone, or of none",
             );
         }
@@ -250,10 +255,20 @@ impl Made {
             let first = vertices.len();
             let point = |v: &[f64; 3]| -> [f64; 3] { (part.pose * Point3::from(*v)).coords.into() };
             vertices.extend(mesh.vertices.iter().map(point));
-            faces.extend(mesh.faces.iter().map(|f| f.iter().map(|v| first + v).collect::<Vec<_>>()));
+            faces
+                .extend(mesh.faces.iter().map(|f| f.iter().map(|v| first + v).collect::<Vec<_>>()));
         }
         let line = Some(line);
-        raw.blocks.push(Solid { id, vertices, faces, support, material, heft, line, ..Solid::default() });
+        raw.blocks.push(Solid {
+            id,
+            vertices,
+            faces,
+            support,
+            material,
+            heft,
+            line,
+            ..Solid::default()
+        });
     }
 
     /// The material of a block: one for each surface of the file.
@@ -362,7 +377,7 @@ fn heft(body: &Body) -> Heft {
         let mass = match p.weight {
             Weight::Density(density) => density * volume,
             Weight::Mass(mass) => mass,
-            Weight::Of => 0.0,
+            Weight::None => 0.0,
         };
         (mass, p.pose * centre)
     });

@@ -166,7 +166,11 @@ impl<'a, 'i> Reader<'_, 'a, 'i> {
                     let pose = pose * self.pose(inner)?;
                     if child(inner, "gravity").is_some() && !is_true(inner, "gravity") {
                         let text = format!("{} is without gravity", called(inner));
-                        return self.refuse(inner, text, "remove <gravity>, or make the model static");
+                        return self.refuse(
+                            inner,
+                            text,
+                            "remove <gravity>, or make the model static",
+                        );
                     }
                     let support = support || is_true(inner, "kinematic");
                     if self.names.insert(name.clone(), self.links.len()).is_some() {
@@ -200,7 +204,8 @@ impl<'a, 'i> Reader<'_, 'a, 'i> {
                     Some(number) => ends.push(*number),
                     None if name == "world" => {}
                     None => {
-                        let text = format!("{}: its {end} {:?} is no link", called(joint), shorten(name));
+                        let text =
+                            format!("{}: its {end} {:?} is no link", called(joint), shorten(name));
                         return self.refuse(joint, text, "name a link of the model, or world");
                     }
                 }
@@ -219,7 +224,11 @@ impl<'a, 'i> Reader<'_, 'a, 'i> {
         for (k, link) in std::mem::take(&mut self.links).into_iter().enumerate() {
             let body = *numbers.entry(sets.find(k)).or_insert_with(|| {
                 let id = named.get(&k).cloned().unwrap_or_default();
-                bodies.push(Body { id: plain(&id), line: self.xml.line(link.node), ..Body::default() });
+                bodies.push(Body {
+                    id: plain(&id),
+                    line: self.xml.line(link.node),
+                    ..Body::default()
+                });
                 bodies.len() - 1
             });
             bodies[body].support |= link.support;
@@ -251,7 +260,7 @@ impl<'a, 'i> Reader<'_, 'a, 'i> {
                 line: xml.line(collision),
                 form,
                 pose: link.pose * self.pose(collision)?,
-                weight: if is_auto { Weight::Density(density) } else { Weight::Of },
+                weight: if is_auto { Weight::Density(density) } else { Weight::None },
                 surface: Some(self.surface(collision)?),
                 is_ghost: false,
             });
@@ -264,7 +273,9 @@ impl<'a, 'i> Reader<'_, 'a, 'i> {
             None => (None, link.pose),
         };
         match mass {
-            None => self.note("links without a mass, which have the specification's 1 kg", link.node),
+            None => {
+                self.note("links without a mass, which have the specification's 1 kg", link.node)
+            }
             Some(mass) if mass <= 0.0 => {
                 let text = format!("{}: the mass must be > 0, got {mass}", called(link.node));
                 return self.refuse(link.node, text, "kg");
@@ -286,7 +297,9 @@ impl<'a, 'i> Reader<'_, 'a, 'i> {
     fn surface(&mut self, collision: Node) -> Result<Surface, InputError> {
         let surface = child(collision, "surface");
         let friction = surface.and_then(|s| child(s, "friction"));
-        if surface.and_then(|s| child(s, "contact")).is_some_and(|c| child(c, "collide_bitmask").is_some())
+        if surface
+            .and_then(|s| child(s, "contact"))
+            .is_some_and(|c| child(c, "collide_bitmask").is_some())
         {
             self.note("masks of what collides with what, not applied", collision);
         }
@@ -297,7 +310,10 @@ impl<'a, 'i> Reader<'_, 'a, 'i> {
         let mu = ode.map(|o| self.number(o, "mu")).transpose()?.flatten();
         let across = ode.map(|o| self.number(o, "mu2")).transpose()?.flatten();
         if across.is_some() && across != mu {
-            self.note("a second friction across the first, of which the lesser is taken", collision);
+            self.note(
+                "a second friction across the first, of which the lesser is taken",
+                collision,
+            );
         }
         let friction = [mu, across].into_iter().flatten().fold(f64::INFINITY, f64::min);
         let friction = if friction.is_finite() { friction } else { FRICTION };
@@ -311,7 +327,11 @@ impl<'a, 'i> Reader<'_, 'a, 'i> {
     fn form(&mut self, collision: Node) -> Result<Form, InputError> {
         let xml = self.xml;
         let Some(shape) = child(collision, "geometry").and_then(|g| elements(g).next()) else {
-            return self.refuse(collision, format!("{} has no geometry", called(collision)), "add <geometry>");
+            return self.refuse(
+                collision,
+                format!("{} has no geometry", called(collision)),
+                "add <geometry>",
+            );
         };
         let kind = shape.tag_name().name();
         let length = |name: &str| -> Result<f64, InputError> {
@@ -334,12 +354,18 @@ impl<'a, 'i> Reader<'_, 'a, 'i> {
                 Ok(Form::Cuboid(size.map(|s| 0.5 * s)))
             }
             "sphere" => Ok(Form::Sphere(length("radius")?)),
-            "cylinder" => Ok(Form::Cylinder { radius: length("radius")?, half: 0.5 * length("length")? }),
+            "cylinder" => {
+                Ok(Form::Cylinder { radius: length("radius")?, half: 0.5 * length("length")? })
+            }
             "plane" => {
                 let normal = Vector3::from(three("normal")?.unwrap_or([0.0, 0.0, 1.0]));
                 match normal.try_normalize(0.0) {
                     Some(unit) if unit.z > 0.0 && unit.xy().norm() == 0.0 => Ok(Form::Plane),
-                    _ => self.refuse(shape, format!("{}: a plane with a normal off z", called(collision)), "turn it by the pose of the collision"),
+                    _ => self.refuse(
+                        shape,
+                        format!("{}: a plane with a normal off z", called(collision)),
+                        "turn it by the pose of the collision",
+                    ),
                 }
             }
             "mesh" => {
@@ -347,7 +373,11 @@ impl<'a, 'i> Reader<'_, 'a, 'i> {
                     return self.refuse(shape, "a mesh without <uri>", "add the file");
                 };
                 if child(shape, "submesh").is_some() {
-                    return self.refuse(shape, "<submesh> is not read", "put it into a file of its own");
+                    return self.refuse(
+                        shape,
+                        "<submesh> is not read",
+                        "put it into a file of its own",
+                    );
                 }
                 let scale = three("scale")?.unwrap_or([1.0; 3]);
                 let (known, raw) = (&mut self.meshes, &mut self.raw);

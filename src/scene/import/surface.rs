@@ -90,7 +90,8 @@ pub(super) fn joints(
             true => "greater, or that of the higher priority",
             false => "lesser",
         };
-        let text = format!("frictions of surfaces: {}; that of a joint is the {rule}", tally(&list));
+        let text =
+            format!("frictions of surfaces: {}; that of a joint is the {rule}", tally(&list));
         findings.push(Finding::new(FindingCode::Converted, text));
     }
     Ok(())

@@ -64,12 +64,19 @@ pub(super) fn read(bytes: &[u8], folder: Option<&Path>) -> Result<Raw, InputErro
             }
         };
         if !hung.insert(child) {
-            let text = format!("{}: link {:?} has two joints above it", called(node), shorten(child));
+            let text =
+                format!("{}: link {:?} has two joints above it", called(node), shorten(child));
             return Err(xml.error(node, text).hint("links are a tree: remove one of the joints"));
         }
         below.entry(parent).or_default().push(Hanging { child, node, is_free });
     }
-    let mut reader = Reader { xml: &xml, folder, meshes: HashMap::new(), raw: Raw::default(), inertias: Vec::new() };
+    let mut reader = Reader {
+        xml: &xml,
+        folder,
+        meshes: HashMap::new(),
+        raw: Raw::default(),
+        inertias: Vec::new(),
+    };
     let (mut bodies, mut open) = (Vec::new(), Vec::new());
     for name in order.iter().filter(|name| !hung.contains(*name)) {
         open.push((*name, Isometry3::identity(), None, *name == "world"));
@@ -131,7 +138,12 @@ impl Reader<'_, '_> {
         Ok(Isometry3::from_parts(Translation3::new(x, y, z), turn))
     }
 
-    fn link(&mut self, node: Node, pose: Isometry3<f64>, body: &mut Body) -> Result<(), InputError> {
+    fn link(
+        &mut self,
+        node: Node,
+        pose: Isometry3<f64>,
+        body: &mut Body,
+    ) -> Result<(), InputError> {
         let xml = self.xml;
         let collisions = || elements(node).filter(|n| n.has_tag_name("collision"));
         let several = collisions().count() > 1;
@@ -143,7 +155,7 @@ impl Reader<'_, '_> {
                 line: xml.line(collision),
                 form,
                 pose: pose * self.origin(collision)?,
-                weight: Weight::Of,
+                weight: Weight::None,
                 surface: None,
                 is_ghost: false,
             });
@@ -165,9 +177,10 @@ impl Reader<'_, '_> {
 
     fn form(&mut self, collision: Node) -> Result<Form, InputError> {
         let xml = self.xml;
-        let shape = child(collision, "geometry").and_then(|g| elements(g).next()).ok_or_else(|| {
-            xml.error(collision, "a collision without geometry").hint("add <geometry>")
-        })?;
+        let shape =
+            child(collision, "geometry").and_then(|g| elements(g).next()).ok_or_else(|| {
+                xml.error(collision, "a collision without geometry").hint("add <geometry>")
+            })?;
         let kind = shape.tag_name().name();
         let number = |name: &str| -> Result<f64, InputError> {
             let what = format!("{kind}: {name}");
@@ -176,7 +189,8 @@ impl Reader<'_, '_> {
         };
         match kind {
             "box" => {
-                let size: [f64; 3] = xml.exactly(shape, "box: size", needed(xml, shape, "size")?)?;
+                let size: [f64; 3] =
+                    xml.exactly(shape, "box: size", needed(xml, shape, "size")?)?;
                 size.iter().try_for_each(|s| xml.positive(shape, "box: size", *s).map(drop))?;
                 Ok(Form::Cuboid(size.map(|s| 0.5 * s)))
             }
@@ -190,7 +204,8 @@ impl Reader<'_, '_> {
                     None => [1.0; 3],
                 };
                 let name = needed(xml, shape, "filename")?;
-                let mesh = mesh(xml, shape, name, scale, self.folder, &mut self.meshes, &mut self.raw)?;
+                let mesh =
+                    mesh(xml, shape, name, scale, self.folder, &mut self.meshes, &mut self.raw)?;
                 Ok(Form::Mesh(mesh))
             }
             _ => {
@@ -203,12 +218,18 @@ impl Reader<'_, '_> {
     fn finish(mut self, bodies: Vec<Body>) -> Result<Raw, InputError> {
         let robot = self.xml.document.root_element();
         let count = |what: &str| robot.descendants().filter(|n| n.has_tag_name(what)).count();
-        let left: Vec<String> = ["visual", "gazebo", "transmission", "contact", "safety_controller"]
-            .into_iter()
-            .filter_map(|what| Some(count(what)).filter(|n| *n > 0).map(|n| format!("{what} {n}")))
-            .collect();
+        let left: Vec<String> =
+            ["visual", "gazebo", "transmission", "contact", "safety_controller"]
+                .into_iter()
+                .filter_map(|what| {
+                    Some(count(what)).filter(|n| *n > 0).map(|n| format!("{what} {n}"))
+                })
+                .collect();
         if !left.is_empty() {
-            let text = format!("elements left out, only collision and inertial are read: {}", tally(&left));
+            let text = format!(
+                "elements left out, only collision and inertial are read: {}",
+                tally(&left)
+            );
             self.raw.say(FindingCode::LeftOut, text);
         }
         if !self.inertias.is_empty() {
@@ -216,7 +237,8 @@ impl Reader<'_, '_> {
         }
         let (full, bare): (Vec<_>, Vec<_>) = bodies.into_iter().partition(|b| !b.parts.is_empty());
         if !bare.is_empty() {
-            let names: Vec<String> = bare.iter().map(|b| format!("{:?} (line {})", b.id, b.line)).collect();
+            let names: Vec<String> =
+                bare.iter().map(|b| format!("{:?} (line {})", b.id, b.line)).collect();
             let text = format!("links without a collision shape, left out: {}", tally(&names));
             self.raw.say(FindingCode::LeftOut, text);
         }

@@ -69,7 +69,8 @@ impl<'a> Xml<'a> {
         let list = text.split_whitespace().map(number).collect::<Result<Vec<f64>, _>>()?;
         if !counts.contains(&list.len()) {
             let (least, most) = (counts.start(), counts.end());
-            let rule = if least == most { format!("{least}") } else { format!("{least} to {most}") };
+            let rule =
+                if least == most { format!("{least}") } else { format!("{least} to {most}") };
             let message = format!("{what}: {} numbers, {rule} expected", list.len());
             return Err(self.error(node, message).hint("the file may be damaged here"));
         }
@@ -124,8 +125,10 @@ pub(super) fn root(bytes: &[u8]) -> Option<&str> {
     loop {
         rest = rest.trim_ascii_start().strip_prefix(b"<")?;
         if rest.first().is_some_and(|b| *b == b'?' || *b == b'!') {
+            let declares = rest.iter().find(|b| matches!(b, b'[' | b'>')) == Some(&b'[');
+            let from = if declares { after(rest, 0, b"]")? } else { 0 };
             let end: &[u8] = if rest.starts_with(b"!--") { b"-->" } else { b">" };
-            rest = &rest[after(rest, 0, end)?..];
+            rest = &rest[after(rest, from, end)?..];
             continue;
         }
         let stop = |b: &u8| b.is_ascii_whitespace() || matches!(b, b'>' | b'/');

@@ -8,10 +8,15 @@ use std::{
     io::{Read, Write},
     net::TcpListener,
     process::Command,
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
 };
 
-/// A static server of `web/site`, for as long as the test runs; its address.
-fn served() -> Option<String> {
+/// A static server of `web/site`, for as long as the test runs and until it is told to be silent; its
+/// address.
+fn served() -> Option<(String, Arc<AtomicBool>)> {
     let folder = format!("{}/web/site", env!("CARGO_MANIFEST_DIR"));
     if !["voussoir.wasm.gz", "module.js", "page.css"]
         .iter()
@@ -22,8 +27,13 @@ fn served() -> Option<String> {
     }
     let listener = TcpListener::bind("127.0.0.1:0").unwrap();
     let address = format!("http://{}", listener.local_addr().unwrap());
+    let silent = Arc::new(AtomicBool::new(false));
+    let is_silent = silent.clone();
     std::thread::spawn(move || {
         for mut stream in listener.incoming().flatten() {
+            if is_silent.load(Ordering::Relaxed) {
+                continue;
+            }
             let mut request = [0; 8192];
             let read = stream.read(&mut request).unwrap_or(0);
             let text = String::from_utf8_lossy(&request[..read]);
@@ -45,7 +55,7 @@ fn served() -> Option<String> {
             let _ = stream.write_all(head.as_bytes()).and_then(|()| stream.write_all(&body));
         }
     });
-    Some(address)
+    Some((address, silent))
 }
 
 /// What the page says when it is done.
@@ -65,16 +75,21 @@ fn heading(browser: &Browser) -> String {
 
 /// Opens a text as a file that a person chose.
 fn choose(browser: &Browser, text: &str) {
+    choose_file(browser, "own.json", text);
+}
+
+fn choose_file(browser: &Browser, name: &str, text: &str) {
     browser.run(&format!(
-        "document.getElementById('status').textContent = ''; const d = new DataTransfer(); d.items.add(new File([{}], 'own.json'));
+        "document.getElementById('status').textContent = ''; const d = new DataTransfer(); d.items.add(new File([{}], {}));
          const i = document.getElementById('file'); i.files = d.files; i.dispatchEvent(new Event('change'));",
-        json!(text)
+        json!(text),
+        json!(name)
     ));
 }
 
 #[test]
 fn the_site_answers_verifies_and_is_shared() {
-    let Some(address) = served() else { return };
+    let Some((address, silent)) = served() else { return };
     let Some(browser) = Browser::start(&["--window-size=390,844"]) else {
         return crate::skipped("chromium and chromedriver are not on the path");
     };
@@ -85,7 +100,7 @@ fn the_site_answers_verifies_and_is_shared() {
     assert_eq!(browser.run(wide), 0, "it fits on a narrow screen");
 
     // Another question, and a link to it.
-    browser.run("document.getElementById('status').textContent = ''; const q = document.getElementById('question'); q.value = 'limit'; q.dispatchEvent(new Event('change'));");
+    browser.run("document.getElementById('status').textContent = ''; document.querySelector('input[value=limit]').click();");
     assert!(status(&browser).starts_with("Answered in"));
     let limit = heading(&browser);
     assert!(limit.starts_with("Carries"), "{limit}");
@@ -129,6 +144,37 @@ fn the_site_answers_verifies_and_is_shared() {
     browser.run("document.getElementById('stop').click()");
     assert!(status(&browser).starts_with("Stopped"));
     choose(&browser, &fs::read_to_string(structure("block-in-groove")).unwrap());
+    assert!(status(&browser).starts_with("Answered in"));
+
+    // A slider: the arch with other numbers of voussoirs, the last of which counts.
+    browser.run("document.getElementById('status').textContent = ''; document.querySelector('input[value=assess]').click(); const e = document.getElementById('example'); e.selectedIndex = 0; e.dispatchEvent(new Event('change'));");
+    assert!(status(&browser).starts_with("Answered in"));
+    browser.run("document.getElementById('status').textContent = ''; const s = [...document.querySelectorAll('#sliders label')].find((l) => l.textContent.includes('voussoirs')).querySelector('input'); for (const v of [28, 31, 33]) { s.value = v; s.dispatchEvent(new Event('input')); }");
+    browser.until("return document.getElementById('stop').hidden && document.getElementById('status').textContent.startsWith('Answered')");
+    let moved = browser.run("return document.getElementById('scene').value");
+    assert!(moved.as_str().unwrap().contains("\"voussoirs\": 33"), "{moved}");
+    browser.frame(Some(0));
+    browser.until("return document.body.textContent.includes('35 blocks')");
+    browser.frame(None);
+
+    // A drawing: nothing is held until a layer is said to be.
+    let drawing =
+        fs::read_to_string(format!("{}/tests/formats/arch-2018-m.dxf", env!("CARGO_MANIFEST_DIR")))
+            .unwrap();
+    choose_file(&browser, "arch.dxf", &drawing);
+    assert!(status(&browser).starts_with("No block is held"));
+    browser.run("document.getElementById('status').textContent = ''; const l = document.getElementById('layers'); l.value = 'GROUND=support'; l.dispatchEvent(new Event('change'));");
+    assert!(status(&browser).starts_with("Answered in"));
+    assert!(heading(&browser).starts_with("Stands"));
+    let said = browser.run("return document.getElementById('words').textContent");
+    assert!(said.as_str().unwrap().contains("\"GROUND\" 2 outlines"), "{said}");
+    assert_eq!(browser.run(wide), 0, "it still fits");
+
+    // Without its server.
+    browser.until("return navigator.serviceWorker.controller !== null");
+    silent.store(true, Ordering::Relaxed);
+    browser.visit("about:blank");
+    browser.visit(&format!("{address}/index.html"));
     assert!(status(&browser).starts_with("Answered in"));
 
     let strangers = browser.run(

@@ -5,7 +5,7 @@ async function voussoir(wasm) {
   const text = (from, length) => new TextDecoder().decode(new Uint8Array(memory.buffer, from, length));
   const page = { seconds: () => performance.now() / 1000, failed: (from, length) => { why = text(from, length); } };
   const made = await WebAssembly.instantiate(wasm, { page });
-  const { memory, place, give_back, check_result, ask_question } = (made.instance ?? made).exports;
+  const { memory, place, give_back, check_result, ask_question, import_file } = (made.instance ?? made).exports;
   const reply = (to, request) => {
     const bytes = new TextEncoder().encode(request), at = place(bytes.length);
     if (!at && bytes.length) throw new Error("there is not enough memory for this text");
@@ -19,5 +19,6 @@ async function voussoir(wasm) {
     give_back(from, length);
     return JSON.parse(answer);
   };
-  return { check: (result) => reply(check_result, result), ask: ask_question && ((request) => reply(ask_question, JSON.stringify(request))) };
+  const asked = (to) => to && ((request) => reply(to, JSON.stringify(request)));
+  return { check: (result) => reply(check_result, result), ask: asked(ask_question), import: asked(import_file) };
 }

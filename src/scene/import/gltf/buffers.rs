@@ -28,7 +28,8 @@ impl<'a> Buffers<'a> {
     ) -> Result<Self, InputError> {
         let one = |(k, buffer): (usize, &'a super::document::Buffer)| match &buffer.uri {
             None if k == 0 => {
-                let bytes = inside.ok_or_else(|| fault("buffers[0] has no uri, and none is inside"))?;
+                let bytes =
+                    inside.ok_or_else(|| fault("buffers[0] has no uri, and none is inside"))?;
                 Ok(Cow::Borrowed(bytes))
             }
             None => Err(fault(format!("buffers[{k}] has no uri"))),
@@ -117,9 +118,12 @@ impl<'a> Buffers<'a> {
     }
 }
 
+/// A component from its bytes.
+type Decode = fn(&[u8]) -> f64;
+
 /// Bytes of a component, and how they are read (Khronos Group 2021, table of section 3.6.2.2, and 3.11 for
 /// normalized integers).
-fn component(accessor: &Accessor) -> Option<(usize, fn(&[u8]) -> f64)> {
+fn component(accessor: &Accessor) -> Option<(usize, Decode)> {
     fn word<const N: usize>(b: &[u8]) -> [u8; N] {
         std::array::from_fn(|k| b[k])
     }

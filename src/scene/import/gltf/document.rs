@@ -158,9 +158,8 @@ fn unpack(rest: &[u8]) -> Result<(&[u8], Option<&[u8]>), InputError> {
     let (mut json, mut buffer) = (None, None);
     while !rest.is_empty() {
         let head = rest.first_chunk::<8>().ok_or_else(|| fault("that ends in a chunk's head"))?;
-        let [length, kind] = [0, 4].map(|k| {
-            u32::from_le_bytes([head[k], head[k + 1], head[k + 2], head[k + 3]])
-        });
+        let [length, kind] =
+            [0, 4].map(|k| u32::from_le_bytes([head[k], head[k + 1], head[k + 2], head[k + 3]]));
         let end = (length as usize).saturating_add(8);
         let chunk = rest.get(8..end).ok_or_else(|| fault("that ends in a chunk"))?;
         match kind {

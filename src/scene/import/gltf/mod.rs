@@ -193,7 +193,8 @@ fn drawn(
             None => (0..points.len()).collect(),
         };
         // Corners are written once for each face that they are on.
-        let place = |p: &[f64; 3]| -> [f64; 3] { pose.transform_point(&Point3::from(*p)).coords.into() };
+        let place =
+            |p: &[f64; 3]| -> [f64; 3] { pose.transform_point(&Point3::from(*p)).coords.into() };
         let numbers: Vec<usize> = points
             .iter()
             .map(place)
@@ -214,7 +215,8 @@ fn drawn(
         match mode {
             4 => (0..n / 3).for_each(|t| add(3 * t, 3 * t + 1, 3 * t + 2)),
             // Every other triangle of a strip runs the other way.
-            5 => (2..n).for_each(|t| if t % 2 == 0 { add(t - 2, t - 1, t) } else { add(t - 1, t - 2, t) }),
+            5 => (2..n)
+                .for_each(|t| if t % 2 == 0 { add(t - 2, t - 1, t) } else { add(t - 1, t - 2, t) }),
             _ => (2..n).for_each(|t| add(0, t - 1, t)),
         }
         let name = primitive.material.and_then(|m| document.materials.get(m)).map(|m| &m.name);
@@ -285,7 +287,15 @@ fn block(
             heft.centroid = exact.own_centroid();
             if exact.spheres.is_empty() {
                 let (vertices, faces) = (exact.vertices, exact.faces);
-                raw.blocks.push(Solid { id, vertices, faces, support, material, heft, ..Solid::default() });
+                raw.blocks.push(Solid {
+                    id,
+                    vertices,
+                    faces,
+                    support,
+                    material,
+                    heft,
+                    ..Solid::default()
+                });
             } else {
                 let spheres = exact.spheres.iter().map(|s| (s.at, s.radius)).collect();
                 raw.grains.push(Grain { id, spheres, support, material, heft, ..Grain::default() });
@@ -346,7 +356,8 @@ impl Exact {
             _ => return Some(own.into()),
         };
         let (low, high) = bounds(self.vertices.iter().copied());
-        let size = if self.spheres.is_empty() { (high - low).norm() } else { self.spheres[0].radius };
+        let size =
+            if self.spheres.is_empty() { (high - low).norm() } else { self.spheres[0].radius };
         ((own - of_shape).norm() > ROUNDING * size).then(|| own.into())
     }
 }
@@ -375,7 +386,10 @@ fn tell(document: &Document, notes: Notes, raw: &mut Raw) {
     }
     let moving = document.animations.len() + document.skins.len();
     if moving > 0 {
-        raw.say(LeftOut, format!("animations and skins, left out (nodes are where they rest): {moving}"));
+        raw.say(
+            LeftOut,
+            format!("animations and skins, left out (nodes are where they rest): {moving}"),
+        );
     }
     let blocks = raw.blocks.iter().map(|b| (&b.material, &b.heft));
     let of = |(material, heft): &(&Option<String>, &Heft)| {

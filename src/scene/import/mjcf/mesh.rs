@@ -27,7 +27,8 @@ impl<'a, 'i> Meshes<'a, 'i> {
     pub fn of(model: Node<'a, 'i>) -> Self {
         let assets = elements(model).filter(|n| n.has_tag_name("asset")).flat_map(elements);
         let named = assets.filter(|n| n.has_tag_name("mesh")).filter_map(|n| {
-            let of_file = || Some(Path::new(n.attribute("file")?).file_stem()?.to_str()?.to_string());
+            let of_file =
+                || Some(Path::new(n.attribute("file")?).file_stem()?.to_str()?.to_string());
             Some((n.attribute("name").map(str::to_string).or_else(of_file)?, n))
         });
         Self { nodes: named.collect(), known: HashMap::new() }

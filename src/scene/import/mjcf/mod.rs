@@ -169,7 +169,8 @@ impl<'a, 'i> Reader<'_, 'a, 'i> {
                     gravity = [0.0; 3];
                 }
                 for name in ["contact", "constraint", "override"] {
-                    if flag.attribute(name) == Some(if name == "override" { "enable" } else { "disable" })
+                    if flag.attribute(name)
+                        == Some(if name == "override" { "enable" } else { "disable" })
                     {
                         self.note(Note::Options, format!("flag {name}"));
                     }
@@ -190,21 +191,26 @@ impl<'a, 'i> Reader<'_, 'a, 'i> {
                     None => 0,
                 };
                 self.bodies.push(Body { support: true, ..Body::default() });
-                self.children(section, Place {
-                    owner: Owner::Held,
-                    pose: Isometry3::identity(),
-                    class,
-                    body: self.bodies.len() - 1,
-                    is_weighed: false,
-                    is_top: true,
-                })
+                self.children(
+                    section,
+                    Place {
+                        owner: Owner::Held,
+                        pose: Isometry3::identity(),
+                        class,
+                        body: self.bodies.len() - 1,
+                        is_weighed: false,
+                        is_top: true,
+                    },
+                )
             }
-            "equality" => match elements(section).find(|n| n.attribute("active") != Some("false")) {
-                Some(node) => Err(xml
-                    .error(node, format!("equality constraints are not read: {}", called(node)))
-                    .hint("remove it; what is welded is a body without a joint in its parent")),
-                None => Ok(()),
-            },
+            "equality" => {
+                match elements(section).find(|n| n.attribute("active") != Some("false")) {
+                    Some(node) => Err(xml
+                        .error(node, format!("equality constraints are not read: {}", called(node)))
+                        .hint("remove it; what is welded is a body without a joint in its parent")),
+                    None => Ok(()),
+                }
+            }
             "tendon" | "deformable" => match elements(section).next() {
                 Some(node) => Err(xml
                     .error(node, format!("section {tag} is not read: {}", called(node)))
@@ -247,7 +253,10 @@ impl<'a, 'i> Reader<'_, 'a, 'i> {
                     self.children(inner, Place { pose, class, ..place })?;
                 }
                 tag if MADE.contains(&tag) => {
-                    return Err(self.xml.error(inner, format!("<{tag}> is not read")).hint(COMPILE));
+                    return Err(self
+                        .xml
+                        .error(inner, format!("<{tag}> is not read"))
+                        .hint(COMPILE));
                 }
                 _ => {}
             }
@@ -308,9 +317,14 @@ impl<'a, 'i> Reader<'_, 'a, 'i> {
                     "frame" => open.push(joint),
                     "freejoint" => is_free = true,
                     "joint" => {
-                        let kind = self.classes.of(xml, joint, class)?.get("type").unwrap_or("hinge");
+                        let kind =
+                            self.classes.of(xml, joint, class)?.get("type").unwrap_or("hinge");
                         if kind != "free" {
-                            let text = format!("{} of {} is a joint that turns or slides ({kind})", called(joint), called(node));
+                            let text = format!(
+                                "{} of {} is a joint that turns or slides ({kind})",
+                                called(joint),
+                                called(node)
+                            );
                             return Err(xml.error(joint, text).hint("blocks are rigid: remove the joint, and the body is welded to its parent, or make it a free joint"));
                         }
                         is_free = true;
@@ -374,7 +388,7 @@ impl<'a, 'i> Reader<'_, 'a, 'i> {
         };
         let held = self.bodies[place.body].support;
         let weight = match place.is_weighed || held {
-            true => Weight::Of,
+            true => Weight::None,
             false => self.weight(&own)?,
         };
         let part = Part {
@@ -421,7 +435,8 @@ impl<'a, 'i> Reader<'_, 'a, 'i> {
         if let Some(ends) = own.numbers(xml, "fromto", 6..=6)?
             && matches!(kind, "box" | "cylinder")
         {
-            let (from, to) = (Vector3::new(ends[0], ends[1], ends[2]), Vector3::new(ends[3], ends[4], ends[5]));
+            let (from, to) =
+                (Vector3::new(ends[0], ends[1], ends[2]), Vector3::new(ends[3], ends[4], ends[5]));
             let Some(turn) = place::along(from - to) else {
                 return refuse("of no length: both ends of fromto are the same", "set them apart");
             };
@@ -468,13 +483,23 @@ impl<'a, 'i> Reader<'_, 'a, 'i> {
         use FindingCode::{Converted, LeftOut};
         for (note, list) in std::mem::take(&mut self.notes) {
             let (code, what) = match note {
-                Note::Filters => (LeftOut, "contype and conaffinity, not applied: all shapes may touch each other"),
+                Note::Filters => (
+                    LeftOut,
+                    "contype and conaffinity, not applied: all shapes may touch each other",
+                ),
                 Note::Pairs => (LeftOut, "pairs of the section contact, not applied"),
-                Note::Inertia => (Converted, "inertials, of which mass and centre are read; the spread of the mass is that of the shapes"),
-                Note::Meshes => (Converted, "meshes, read as they are; MuJoCo lets their convex hulls collide"),
+                Note::Inertia => (
+                    Converted,
+                    "inertials, of which mass and centre are read; the spread of the mass is that of the shapes",
+                ),
+                Note::Meshes => {
+                    (Converted, "meshes, read as they are; MuJoCo lets their convex hulls collide")
+                }
                 Note::Sections => (LeftOut, "sections left out"),
                 Note::Options => (LeftOut, "settings, not applied"),
-                Note::Condim => (LeftOut, "friction about the normal and in rolling (condim), not applied"),
+                Note::Condim => {
+                    (LeftOut, "friction about the normal and in rolling (condim), not applied")
+                }
             };
             self.raw.say(code, format!("{what}: {}", tally(&list)));
         }

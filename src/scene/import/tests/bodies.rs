@@ -26,7 +26,9 @@ fn body(block: &BlockSpec) -> (Vec<Vector3<f64>>, f64, Vector3<f64>) {
             (ends.to_vec(), ball(*radius), at)
         }
         Shape::Clump { spheres } => {
-            let ends = |s: &crate::Ball| [-s.radius, s.radius].map(|r| (at + Vector3::from(s.at)).add_scalar(r));
+            let ends = |s: &crate::Ball| {
+                [-s.radius, s.radius].map(|r| (at + Vector3::from(s.at)).add_scalar(r))
+            };
             let size: f64 = spheres.iter().map(|s| ball(s.radius)).sum();
             let moment: Vector3<f64> =
                 spheres.iter().map(|s| (at + Vector3::from(s.at)) * ball(s.radius)).sum();
@@ -47,7 +49,9 @@ fn friction(scene: &Scene, a: &str, b: &str) -> Friction {
         block.material.clone().expect("a material")
     };
     let (a, b) = (material(a), material(b));
-    let is = |between: &[String; 2]| *between == [a.clone(), b.clone()] || *between == [b.clone(), a.clone()];
+    let is = |between: &[String; 2]| {
+        *between == [a.clone(), b.clone()] || *between == [b.clone(), a.clone()]
+    };
     let own = scene.joints.overrides.iter().rev().find(|o| o.between.as_ref().is_some_and(is));
     own.and_then(|o| o.friction).or(scene.joints.default.friction).expect("friction")
 }
@@ -76,7 +80,10 @@ fn agrees(format: &str) {
         let imported = read.unwrap_or_else(|e| panic!("{name}: {e}"));
         let said: Vec<&str> = imported.findings.iter().map(|f| f.text.as_str()).collect();
         for word in words("findings") {
-            assert!(said.iter().any(|s| s.contains(word.as_str().unwrap())), "{name}: {word} in {said:#?}");
+            assert!(
+                said.iter().any(|s| s.contains(word.as_str().unwrap())),
+                "{name}: {word} in {said:#?}"
+            );
         }
         if let Some(line) = wanted["line"].as_u64() {
             let place = format!("line {line})");
@@ -94,8 +101,11 @@ fn agrees(format: &str) {
             assert_eq!(Vector3::from(imported.scene.gravity), vector(&wanted["gravity"]), "{name}");
         }
         if wanted["supports"].is_array() {
-            let held: Vec<Value> = supports(&imported).into_iter().map(Value::from).collect();
-            assert_eq!(Value::from(held), wanted["supports"], "{name}");
+            let mut held: Vec<Value> = supports(&imported).into_iter().map(Value::from).collect();
+            let mut named = wanted["supports"].as_array().cloned().unwrap_or_default();
+            held.sort_by_key(ToString::to_string);
+            named.sort_by_key(ToString::to_string);
+            assert_eq!(held, named, "{name}");
         }
     }
 }
@@ -114,8 +124,17 @@ fn blocks(name: &str, imported: &Imported, wanted: &Value) {
         let high = corners.iter().copied().reduce(|a, b| a.sup(&b)).unwrap();
         // Cylinders are prisms; the box of a turned one is a little larger.
         let is_round = corners.len() > 60 && !is_single;
-        let near = (high - low).norm() * if is_round { 3e-5 } else if is_single { 3e-7 } else { 1e-12 } + 1e-12;
-        let off = (low - vector(&wanted["low"])).amax().max((high - vector(&wanted["high"])).amax());
+        let near = (high - low).norm()
+            * if is_round {
+                3e-5
+            } else if is_single {
+                3e-7
+            } else {
+                1e-12
+            }
+            + 1e-12;
+        let off =
+            (low - vector(&wanted["low"])).amax().max((high - vector(&wanted["high"])).amax());
         assert!(off <= near, "{name} {}: off by {off:e} > {near:e}", block.id);
         if let Some(volume) = wanted["volume"].as_f64() {
             assert!((size / volume - 1.0).abs() < 1e-6, "{name} {}: {size} {volume}", block.id);
@@ -128,7 +147,8 @@ fn blocks(name: &str, imported: &Imported, wanted: &Value) {
             assert!((own / mass - 1.0).abs() < near, "{name} {}: {own} {mass}", block.id);
         }
         if wanted["centre"].is_array() {
-            let own = block.centroid.map_or(shape_centre, |c| Vector3::from(c) + Vector3::from(block.at));
+            let own =
+                block.centroid.map_or(shape_centre, |c| Vector3::from(c) + Vector3::from(block.at));
             let off = (own - vector(&wanted["centre"])).norm();
             assert!(off <= 10.0 * near, "{name} {}: centre off by {off:e}", block.id);
         }
@@ -157,7 +177,9 @@ fn gltf_of_other_programs_is_read() {
 
 /// A model of MuJoCo with these things in the world.
 fn mjcf(world: &str) -> String {
-    format!("<mujoco><worldbody><geom name=\"floor\" type=\"plane\" size=\"1 1 1\"/>{world}</worldbody></mujoco>")
+    format!(
+        "<mujoco><worldbody><geom name=\"floor\" type=\"plane\" size=\"1 1 1\"/>{world}</worldbody></mujoco>"
+    )
 }
 
 fn free(name: &str, geoms: &str) -> String {
@@ -182,7 +204,7 @@ fn the_root_of_an_xml_file_tells_its_format() {
             assert!(imported.scene.source.contains("MJCF"), "{}", imported.scene.source);
         }
     }
-    for root in ["COLLADA", "svg", "mujocoinclude"] {
+    for root in ["COLLADA", "mujocoinclude"] {
         let error = import("a.xml", format!("<{root}><worldbody/></{root}>")).expect_err(root);
         assert!(error.to_string().contains("format is unknown"), "{error}");
     }
@@ -198,7 +220,13 @@ fn a_density_given_keeps_the_frictions_of_materials() {
     let options = ImportOptions { density: Some(1234.0), ..ImportOptions::default() };
     let given = read(&text, &options).scene;
     let own = read(&text, &ImportOptions::default()).scene;
-    for (a, b, mu) in [("a", "floor", 1.0), ("a", "b", 0.8), ("b", "b", 0.8), ("a", "a", 0.2), ("c", "floor", 2.0)] {
+    for (a, b, mu) in [
+        ("a", "floor", 1.0),
+        ("a", "b", 0.8),
+        ("b", "b", 0.8),
+        ("a", "a", 0.2),
+        ("c", "floor", 2.0),
+    ] {
         assert_eq!(friction(&own, a, b), Friction::Coefficient(mu), "{a} {b}");
         assert_eq!(friction(&given, a, b), Friction::Coefficient(mu), "{a} {b}");
     }
@@ -206,9 +234,13 @@ fn a_density_given_keeps_the_frictions_of_materials() {
         assert!(block.density.is_none() && block.mass.is_none());
         assert_eq!(given.materials[block.material.as_ref().unwrap()].density, 1234.0);
     }
-    assert!(given.joints.overrides.iter().all(|o| {
-        o.between.iter().flatten().all(|name| given.materials.contains_key(name))
-    }));
+    assert!(
+        given
+            .joints
+            .overrides
+            .iter()
+            .all(|o| { o.between.iter().flatten().all(|name| given.materials.contains_key(name)) })
+    );
     // Friction given is that of every joint.
     let mu = Some(Friction::Coefficient(0.5));
     let plain = read(&text, &ImportOptions { friction: mu, ..options }).scene;
@@ -218,7 +250,8 @@ fn a_density_given_keeps_the_frictions_of_materials() {
 #[test]
 fn shapes_that_touch_nothing_weigh_and_are_left_out() {
     let ghost = "<geom type=\"sphere\" size=\"0.1\" pos=\"0 0 1\" mass=\"2\" contype=\"0\" conaffinity=\"0\"/>";
-    let imported = read(&mjcf(&free("a", &(unit_box("mass=\"6\"") + ghost))), &ImportOptions::default());
+    let imported =
+        read(&mjcf(&free("a", &(unit_box("mass=\"6\"") + ghost))), &ImportOptions::default());
     finding(&imported, FindingCode::LeftOut, &["touch nothing"]);
     let block = imported.scene.blocks.iter().find(|b| b.id == "a").expect("there");
     assert_eq!((block.mass, block.centroid), (Some(8.0), Some([0.0, 0.0, 0.25])));
@@ -255,7 +288,11 @@ fn deep_files_and_files_with_entities_are_refused() {
     let open = "<mujoco>".repeat(100_000);
     assert!(import("model.xml", open).is_err());
     // What only looks deep is not.
-    let flat = format!("<!-- {0} --><mujoco><worldbody><![CDATA[{0}]]><body name='{1}'/>", "<a>".repeat(1000), "&lt;".repeat(500));
+    let flat = format!(
+        "<!-- {0} --><mujoco><worldbody><![CDATA[{0}]]><body name='{1}'/>",
+        "<a>".repeat(1000),
+        "&lt;".repeat(500)
+    );
     let text = format!("{flat}{}</worldbody></mujoco>", free("a", &unit_box("")));
     assert_eq!(ids(&read(&text, &ImportOptions::default())), ["a"]);
     let bomb = "<!DOCTYPE m [<!ENTITY a \"aaaa\"><!ENTITY b \"&a;&a;\">]><mujoco>&b;</mujoco>";
@@ -273,7 +310,10 @@ fn a_mesh_stays_in_the_folder_of_its_model() {
         path
     };
     let model = |file: &str| {
-        format!("<mujoco><compiler meshdir=\"m\"/><asset><mesh name=\"s\" file=\"{file}\"/></asset><worldbody>{}</worldbody></mujoco>", free("a", "<geom type=\"mesh\" mesh=\"s\"/>"))
+        format!(
+            "<mujoco><compiler meshdir=\"m\"/><asset><mesh name=\"s\" file=\"{file}\"/></asset><worldbody>{}</worldbody></mujoco>",
+            free("a", "<geom type=\"mesh\" mesh=\"s\"/>")
+        )
     };
     write("m/stone.obj", obj_box([0.0; 3], |i| i.to_string()));
     write("stone.obj", obj_box([0.0; 3], |i| i.to_string()));
@@ -304,7 +344,8 @@ fn models_are_scaled_and_turned_like_all_others() {
 #[test]
 fn a_cylinder_has_its_exact_mass_wherever_it_lies() {
     for quat in ["1 0 0 0", "0.1 0.2 -0.3 0.4"] {
-        let geom = format!("<geom type=\"cylinder\" size=\"0.3 0.7\" density=\"1500\" quat=\"{quat}\"/>");
+        let geom =
+            format!("<geom type=\"cylinder\" size=\"0.3 0.7\" density=\"1500\" quat=\"{quat}\"/>");
         let imported = read(&mjcf(&free("a", &geom)), &ImportOptions::default());
         let block = &imported.scene.blocks[0];
         let mass = 1500.0 * std::f64::consts::PI * 0.09 * 1.4;
@@ -317,8 +358,7 @@ fn a_cylinder_has_its_exact_mass_wherever_it_lies() {
 /// A scene in glTF by hand: its exact shape, drawn in single precision at `drawn`.
 fn with_extras(drawn: [f32; 3]) -> String {
     let third = 1.0 / 3.0;
-    let exact: Vec<[f64; 3]> =
-        corners([third; 3]).iter().map(|c| Up::MinusY.rotate(*c)).collect();
+    let exact: Vec<[f64; 3]> = corners([third; 3]).iter().map(|c| Up::MinusY.rotate(*c)).collect();
     let bytes: Vec<u8> = exact
         .iter()
         .flat_map(|c| [0, 1, 2].map(|k| (c[k] as f32 + drawn[k]).to_le_bytes()).concat())
@@ -365,7 +405,8 @@ fn exact_shapes_are_read_while_they_are_what_is_drawn() {
 /// Nodes are placed in double precision: numbers of surveys keep their millimetres.
 #[test]
 fn places_of_nodes_keep_their_digits() {
-    let text = with_extras([0.0; 3]).replace("\"children\":[1]", "\"children\":[1],\"translation\":[4500000.125,0,0]");
+    let text = with_extras([0.0; 3])
+        .replace("\"children\":[1]", "\"children\":[1],\"translation\":[4500000.125,0,0]");
     let scene = import("a.gltf", text).expect("fine").scene;
     let (vertices, _) = mesh(&scene.blocks[0]);
     let off = vertices[0][0] - 4_500_000.125 - 1.0 / 3.0;
@@ -378,10 +419,24 @@ fn places_of_nodes_keep_their_digits() {
 fn damaged_files_never_panic() {
     let mut state = 7_u64;
     let mut next = |below: usize| {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (state >> 33) as usize % below.max(1)
     };
-    let words: [&[u8]; 12] = [b"0", b"-1", b"1e308", b"1e-308", b"nan", b"<", b">", b"\"", b"99999999999", b"{", b"]", b"</"];
+    let words: [&[u8]; 12] = [
+        b"0",
+        b"-1",
+        b"1e308",
+        b"1e-308",
+        b"nan",
+        b"<",
+        b">",
+        b"\"",
+        b"99999999999",
+        b"{",
+        b"]",
+        b"</",
+    ];
     for format in ["mjcf", "urdf", "sdf", "gltf"] {
         for entry in std::fs::read_dir(folder(format)).expect("a folder") {
             let path = entry.expect("an entry").path();
@@ -419,7 +474,11 @@ fn damaged_files_never_panic() {
                     Err(e) => assert!(!e.message.is_empty() && e.to_string().len() < 20_000),
                     Ok(imported) => {
                         let text = serde_json::to_string(&imported.scene).expect("JSON");
-                        assert!(serde_json::from_str::<Scene>(&text).expect("a scene") == imported.scene, "{name}");
+                        assert!(
+                            serde_json::from_str::<Scene>(&text).expect("a scene")
+                                == imported.scene,
+                            "{name}"
+                        );
                     }
                 }
             }
@@ -439,7 +498,12 @@ fn euler_angles_and_axes_agree() {
         format!("euler=\"{roll} {pitch} {yaw}\""),
         format!(
             "xyaxes=\"{} {} {} {} {} {}\"",
-            turn[(0, 0)], turn[(1, 0)], turn[(2, 0)], turn[(0, 1)], turn[(1, 1)], turn[(2, 1)]
+            turn[(0, 0)],
+            turn[(1, 0)],
+            turn[(2, 0)],
+            turn[(0, 1)],
+            turn[(1, 1)],
+            turn[(2, 1)]
         ),
     ];
     let all: Vec<Vec<Vector3<f64>>> = says

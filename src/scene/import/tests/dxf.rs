@@ -1,6 +1,7 @@
 //! DXF: plane drawings.
 
 use super::*;
+use std::collections::BTreeMap;
 
 fn poly(handle: &str, layer: &str, flag: u8, corners: &str) -> String {
     let points: String = corners
@@ -21,7 +22,15 @@ fn deep() -> ImportOptions {
     ImportOptions { depth: Some(0.5), ..ImportOptions::default() }
 }
 
-fn volume(block: &BlockSpec) -> f64 {
+fn rules(texts: &[&str]) -> BTreeMap<String, LayerRule> {
+    let rule = |text: &&str| {
+        let (name, rule) = text.split_once('=').expect("NAME=RULE");
+        (name.to_string(), rule.parse().expect("a rule"))
+    };
+    texts.iter().map(rule).collect()
+}
+
+pub(super) fn volume(block: &BlockSpec) -> f64 {
     let (v, faces) = mesh(block);
     let det = |a: [f64; 3], b: [f64; 3], c: [f64; 3]| {
         a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0])
@@ -39,7 +48,7 @@ fn outlines_are_prisms_in_metres_whichever_way_they_turn() {
         &(poly("A1", "stone", 1, "0,0 2000,0 2000,1000 0,1000")
             + &poly("A2", "ground", 1, "0,0 0,-1000 2000,-1000 2000,0")),
     );
-    let options = ImportOptions { support_layers: vec!["ground".into()], ..deep() };
+    let options = ImportOptions { layers: rules(&["ground=support"]), ..deep() };
     for name in ["wall.dxf", "wall"] {
         let imported = import_bytes(name, text.as_bytes(), &options).expect("fine");
         check(&imported.scene);
@@ -76,8 +85,13 @@ fn faults_are_told_with_their_place() {
     let imported = import_bytes("w.dxf", text.as_bytes(), &deep()).expect("fine");
     let said: Vec<&str> = imported.findings.iter().map(|f| f.text.as_str()).collect();
     let said = said.join("\n");
-    for part in ["\"s-B\" over \"s-A\" at (0, 0)", "\"s-C\" at (7, 8)", "LINE 1", "no unit", "s 2"]
-    {
+    for part in [
+        "\"s-B\" over \"s-A\" at (0, 0)",
+        "\"s-C\" at (7, 8)",
+        "LINE 1",
+        "no unit",
+        "\"s\" 2 outlines",
+    ] {
         assert!(said.contains(part), "{part}: {said}");
     }
     let error = import("w.dxf", text).expect_err("no depth");
@@ -96,7 +110,7 @@ fn drawn(name: &str, options: &ImportOptions) -> Imported {
 
 #[test]
 fn drawings_of_another_program_are_read_in_metres() {
-    let grounded = ImportOptions { support_layers: vec!["GROUND".into()], ..deep() };
+    let grounded = ImportOptions { layers: rules(&["GROUND=support"]), ..deep() };
     let in_metres = ImportOptions { scale: Some(1.0), ..grounded.clone() };
     let [modern, old] = [("wall-2010-mm.dxf", &grounded), ("wall-r12.dxf", &in_metres)]
         .map(|(name, options)| drawn(name, options).scene);
@@ -168,4 +182,182 @@ fn a_scale_goes_before_the_unit() {
         let size = volume(&of(scale).expect("fine").scene.blocks[0]);
         assert!((size / (0.5 * side * side) - 1.0).abs() < 1e-12, "{scale:?} {size}");
     }
+}
+
+/// Entities of a block, and where it is inserted.
+fn inserted(block: &str, inserts: &str) -> String {
+    format!(
+        "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n6\n0\nENDSEC\n0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\nB\n10\n1\n20\n0\n30\n0\n{block}0\nENDBLK\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n{inserts}0\nENDSEC\n0\nEOF\n"
+    )
+}
+
+fn insert(handle: &str, layer: &str, more: &str) -> String {
+    format!("0\nINSERT\n5\n{handle}\n8\n{layer}\n2\nB\n{more}")
+}
+
+#[test]
+fn inserted_blocks_stand_where_they_are_inserted() {
+    let brick = poly("A", "0", 1, "1,0 3,0 3,1 1,1");
+    let turned = insert("I", "stone", "10\n5\n20\n7\n41\n2\n42\n3\n50\n90\n");
+    let rows = insert("J", "ground", "10\n0\n20\n-1\n70\n2\n71\n3\n44\n4\n45\n-2\n");
+    let text = inserted(&brick, &(turned + &rows));
+    let imported = import_bytes("w.dxf", text.as_bytes(), &deep()).expect("fine");
+    check(&imported.scene);
+    let place = |b: &BlockSpec| {
+        let ends = |k: usize| {
+            let all = mesh(b).0.iter().map(move |v| v[k]);
+            (all.clone().fold(f64::INFINITY, f64::min), all.fold(f64::NEG_INFINITY, f64::max))
+        };
+        (ends(0), ends(2))
+    };
+    let blocks = &imported.scene.blocks;
+    assert_eq!(blocks.len(), 7);
+    assert_eq!(
+        (blocks[0].id.as_str(), blocks[0].material.as_deref()),
+        ("stone-I-A", Some("stone"))
+    );
+    // The brick from its base: (0, 0) to (2, 1); twice as long, three times as high, turned left.
+    assert_eq!(place(&blocks[0]), ((2.0, 5.0), (7.0, 11.0)));
+    assert_eq!(blocks[6].id, "ground-J-6-A");
+    assert_eq!(place(&blocks[6]), ((4.0, 6.0), (-5.0, -4.0)));
+    assert!(blocks.iter().skip(1).all(|b| (volume(b) - 1.0).abs() < 1e-12));
+}
+
+#[test]
+fn inserted_blocks_that_do_not_end_are_refused() {
+    let itself = inserted(&insert("I", "0", ""), &insert("J", "0", ""));
+    let error = import("w.dxf", itself).expect_err("no end");
+    assert!(error.to_string().contains("within itself"), "{error}");
+    let many = insert("J", "0", "70\n32767\n71\n32767\n");
+    for block in ["", &poly("A", "0", 1, "0,0 1,0 1,1")] {
+        let error = import_bytes("w.dxf", inserted(block, &many).as_bytes(), &deep());
+        assert!(error.expect_err("too many").to_string().contains("more than 1000000"));
+    }
+    let missing =
+        inserted("", "").replace("0\nEOF", "") + "0\nSECTION\n2\nENTITIES\n0\nENDSEC\n0\nEOF\n";
+    assert!(import("w.dxf", missing).is_err());
+}
+
+/// The six faces of a box, a 3DFACE each.
+fn faces(layer: &str, low: [f64; 3], size: [f64; 3]) -> String {
+    let corner = |k: usize| -> [f64; 3] {
+        std::array::from_fn(|i| low[i] + if k >> i & 1 == 1 { size[i] } else { 0.0 })
+    };
+    let face = |ring: [usize; 4]| {
+        let points: String = ring
+            .iter()
+            .enumerate()
+            .map(|(i, &k)| {
+                let [x, y, z] = corner(k);
+                format!("{}\n{x}\n{}\n{y}\n{}\n{z}\n", 10 + i, 20 + i, 30 + i)
+            })
+            .collect();
+        format!("0\n3DFACE\n8\n{layer}\n{points}")
+    };
+    let rings =
+        [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    rings.map(face).concat()
+}
+
+/// Boxes that share a face, whose corners are the same, are two bodies.
+#[test]
+fn bodies_of_faces_that_touch_stay_apart() {
+    let text = drawing(
+        6,
+        &(faces("a", [0.0; 3], [1.0; 3])
+            + &faces("a", [1.0, 0.0, 0.0], [1.0, 1.0, 2.0])
+            + &faces("b", [0.0, 0.0, 1.0], [1.0; 3])),
+    );
+    let imported = import_bytes("w.dxf", text.as_bytes(), &ImportOptions::default()).expect("fine");
+    check(&imported.scene);
+    let volumes: Vec<f64> = imported.scene.blocks.iter().map(volume).collect();
+    assert_eq!(volumes, [1.0, 2.0, 1.0]);
+    let layers: Vec<_> = imported.scene.blocks.iter().map(|b| b.material.as_deref()).collect();
+    assert_eq!(layers, [Some("a"), Some("a"), Some("b")]);
+}
+
+#[test]
+fn layers_are_ties_and_loads() {
+    let text = drawing(
+        4,
+        &(poly("A", "stone", 1, "0,0 1000,0 1000,1000 0,1000")
+            + &poly("B", "stone", 1, "3000,0 4000,0 4000,1000 3000,1000")
+            + &poly("C", "plan", 1, "0,0 9000,0 9000,9000")
+            + "0\nLINE\n5\nT\n8\nrod\n10\n500\n20\n900\n11\n3500\n21\n900\n"
+            + "0\nLINE\n5\nU\n8\nrod\n10\n500\n20\n900\n11\n2500\n21\n900\n"
+            + "0\nPOINT\n5\nP\n8\npush\n10\n500\n20\n1000\n"),
+    );
+    let layers = rules(&[
+        "stone=block,density=2000,depth=2",
+        "rod=tie,strength=5e4",
+        "push=load,force=10:-3",
+        "plan=ignore",
+    ]);
+    let options = ImportOptions { layers, ..ImportOptions::default() };
+    let imported = import_bytes("w.dxf", text.as_bytes(), &options).expect("fine");
+    let scene = &imported.scene;
+    check(scene);
+    assert_eq!(ids(&imported), ["stone-A", "stone-B"]);
+    assert_eq!(scene.materials["stone"].density, 2000.0);
+    assert_eq!(scene.members.len(), 1);
+    let tie = scene.members[0].tie.as_ref().expect("a tie");
+    assert_eq!(tie.between[1].block.as_deref(), Some("stone-B"));
+    assert_eq!(tie.between[1].at, Some([3.5, 1.0, 0.9]));
+    let load = &scene.loads.live[0];
+    assert_eq!((load.block.as_deref(), load.force), (Some("stone-A"), Some([10.0, 0.0, -3.0])));
+    assert_eq!(load.at, Some(crate::At::Point([0.5, 1.0, 1.0])));
+    let said: Vec<&str> = imported.findings.iter().map(|f| f.text.as_str()).collect();
+    assert!(said.iter().any(|t| t.contains("\"rod-U\": (2500, 900) is in no outline")), "{said:?}");
+    for (bad, why) in [
+        ("tie", "strength"),
+        ("load", "force"),
+        ("block,strength=3", "only of a tie"),
+        ("block,density=-1", "> 0"),
+        ("wall", "unknown variant"),
+        ("block,height=2", "unknown field"),
+        ("block,density", "KEY=VALUE"),
+    ] {
+        let error = bad.parse::<LayerRule>().expect_err(bad);
+        assert!(error.contains(why), "{bad}: {error}");
+    }
+    let layers = rules(&["rood=support"]);
+    let error = import_bytes("w.dxf", text.as_bytes(), &ImportOptions { layers, ..deep() });
+    assert!(error.expect_err("no such layer").to_string().contains("rood"));
+}
+
+#[test]
+fn bodies_in_space_are_read_from_binary_files() {
+    let layers = rules(&["GROUND=support"]);
+    let imported =
+        drawn("trilithon-2013-m.dxf", &ImportOptions { layers, ..ImportOptions::default() });
+    check(&imported.scene);
+    let blocks = &imported.scene.blocks;
+    let mut volumes: Vec<(bool, f64)> = blocks.iter().map(|b| (b.support, volume(b))).collect();
+    volumes.sort_by(|a, b| a.1.total_cmp(&b.1));
+    assert_eq!(volumes, [(false, 0.5), (false, 0.5), (false, 0.625), (true, 3.5)]);
+
+    let broken = drawn("faults-r12-binary.dxf", &ImportOptions::default());
+    assert_eq!(broken.scene.blocks.iter().map(|b| mesh(b).1.len()).collect::<Vec<_>>(), [6, 5]);
+    let said: Vec<&str> = broken.findings.iter().map(|f| f.text.as_str()).collect();
+    assert!(said.iter().any(|t| t.contains("INSERT of \"LOST\"")), "{said:?}");
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/formats/");
+    let bytes = std::fs::read(format!("{folder}trilithon-2013-m.dxf")).expect("a drawing");
+    for end in [25, 400, bytes.len() / 2, bytes.len() - 1] {
+        let cut = import_bytes("t.dxf", &bytes[..end], &ImportOptions::default());
+        assert!(cut.is_err() || end > bytes.len() / 4, "{end}");
+    }
+}
+
+#[test]
+fn bricks_that_are_one_block_are_read_where_they_stand() {
+    let layers = rules(&["GROUND=support", "BRICK=block,density=1800"]);
+    let imported = drawn("mortar-2007-mm.dxf", &ImportOptions { layers, ..deep() });
+    check(&imported.scene);
+    let blocks = &imported.scene.blocks;
+    assert_eq!(blocks.len(), 10);
+    let base = blocks.iter().find(|b| b.support).expect("the base");
+    let top = mesh(base).0.iter().map(|v| v[2]).fold(f64::NEG_INFINITY, f64::max);
+    assert!((top + 0.01).abs() < 1e-12, "{top}");
+    let wide = |b: &BlockSpec| (volume(b) / (0.24 * 0.065 * 0.5) - 1.0).abs() < 1e-9;
+    assert_eq!(blocks.iter().filter(|b| wide(b)).count(), 9);
 }

@@ -8,6 +8,8 @@ mod dxf;
 mod mesh_formats;
 mod options;
 mod real;
+mod svg;
+mod threedec;
 
 use super::*;
 use crate::{BlockSpec, Shape};

@@ -100,7 +100,8 @@ fn every_up_is_a_proper_rotation_that_brings_its_axis_to_z() {
         let matrix = nalgebra::Matrix3::from_columns(&[column(0), column(1), column(2)]);
         assert_eq!(matrix.determinant(), 1.0, "{up:?}");
         assert_eq!(matrix * matrix.transpose(), nalgebra::Matrix3::identity(), "{up:?}");
-        let imported = with(ImportOptions { up: Some(up), ..ImportOptions::default() }).expect("fine");
+        let imported =
+            with(ImportOptions { up: Some(up), ..ImportOptions::default() }).expect("fine");
         check(&imported.scene);
         assert!(
             (volume(&imported.scene.blocks[0]) - 6.0).abs() < 1e-12,
