@@ -15,7 +15,7 @@ use voussoir::{
     },
     report::{
         drawing::{self, Aspect},
-        gltf, json, obj, page,
+        gltf, json, models, obj, page,
         record::{Origin, Record},
         table, tell,
         text::{self, Asked, Layout, TextOptions},
@@ -406,6 +406,20 @@ impl Answer {
     /// The displaced blocks (OBJ).
     fn obj(&self, py: Python) -> PyResult<String> {
         made(py, &self.kept, |kept| Ok(obj::obj(&kept.view()?)))
+    }
+
+    /// A model of another program, by the ending of its file, and what is not in it.
+    fn model(&self, py: Python, ending: &str) -> PyResult<(String, Vec<String>)> {
+        let Some(program) = models::Program::of_ending(ending) else {
+            return Err(Trouble::Other(format!(
+                "{ending:?} names no program; endings are .xml for MuJoCo, .3ddat for 3DEC"
+            ))
+            .raise(py));
+        };
+        made(py, &self.kept, move |kept| {
+            let file = models::model(&kept.view()?, program).map_err(Trouble::other)?;
+            Ok((file.text, file.notes))
+        })
     }
 
     /// A table with commas: `joints`, `blocks`, `members` or `path`.

@@ -4,7 +4,7 @@ use super::question::quoted;
 use clap::{Arg, ArgMatches, Command, parser::ValueSource};
 
 /// Options that say where an answer goes and how it looks, not what it is.
-const SHOWN: [&str; 21] = [
+const SHOWN: [&str; 22] = [
     "json",
     "save",
     "report",
@@ -14,6 +14,7 @@ const SHOWN: [&str; 21] = [
     "vtk",
     "gltf",
     "obj",
+    "model",
     "positions",
     "keep",
     "verbose",

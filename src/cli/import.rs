@@ -1,10 +1,11 @@
 //! `voussoir import`
 
 use super::{args::Import, claim, deadline, exit::Exit, output::Sink, progress::Stage, terminal};
-use std::collections::BTreeMap;
+use anyhow::bail;
+use std::{collections::BTreeMap, fmt::Write};
 use voussoir::{
     error::{InputError, JsonPath},
-    import::{ImportOptions, LayerRule, import_files},
+    import::{FORMATS, ImportOptions, LayerRule, import_files},
     limits,
     report::{imported::examine, json},
 };
@@ -25,7 +26,27 @@ fn layers(args: &Import) -> anyhow::Result<BTreeMap<String, LayerRule>> {
     Ok(rules)
 }
 
+/// The formats with their endings and an example each.
+fn formats() -> String {
+    let mut text = "Formats that are read, and what becomes a block:\n\n".to_string();
+    for known in FORMATS {
+        let endings: Vec<String> = known.endings.iter().map(|e| format!(".{e}")).collect();
+        let _ = writeln!(text, "  {:<13} {}", known.name, known.holds);
+        let _ = writeln!(text, "  {:<13} {}", "", endings.join(", "));
+        let _ = writeln!(text, "  {:<13} voussoir import {}\n", "", known.example);
+    }
+    text.push_str("IFC, 3dm and STEP: export OBJ or STL with one object a block.\n");
+    text
+}
+
 pub fn run(args: &Import) -> anyhow::Result<Exit> {
+    if args.files.is_empty() {
+        if args.output.is_some() || !args.supports_file.is_empty() {
+            bail!("no file to import; `voussoir import` alone lists the formats with examples");
+        }
+        terminal::print(&formats())?;
+        return Ok(Exit::Yes);
+    }
     args.files
         .iter()
         .chain(&args.supports_file)

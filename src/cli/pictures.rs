@@ -1,6 +1,6 @@
 //! Drawings, files for ParaView and tables of an answer.
 
-use super::{args, output::Sink};
+use super::{args, output::Sink, terminal::say};
 use anyhow::{Context, bail};
 use std::{
     borrow::Cow,
@@ -10,7 +10,9 @@ use std::{
 };
 use voussoir::report::{
     drawing::{self, Aspect},
-    gltf, obj, table,
+    gltf,
+    models::{self, Program},
+    obj, table,
     view::View,
     vtk,
 };
@@ -24,6 +26,8 @@ pub struct Pictures {
     /// With whether it is the binary container.
     gltf: Option<(Sink, bool)>,
     obj: Option<Sink>,
+    /// With the program that reads it.
+    model: Option<(Sink, Program)>,
     /// Supports are left out.
     hides: bool,
     /// Drawings have dimensions.
@@ -74,7 +78,7 @@ impl Pictures {
             );
         }
         let open = |path: Option<&Path>| path.map(|p| Sink::open(Some(p))).transpose();
-        let printed = [&args.svg, &args.vtk, &args.gltf, &args.obj]
+        let printed = [&args.svg, &args.vtk, &args.gltf, &args.obj, &args.model]
             .into_iter()
             .map(|p| p.as_deref())
             .chain([table])
@@ -82,7 +86,9 @@ impl Pictures {
             .filter(|p| is_dash(p))
             .count();
         if printed > 1 {
-            bail!("only one of --svg, --vtk, --gltf, --obj and --csv can go to standard output");
+            bail!(
+                "only one of --svg, --vtk, --gltf, --obj, --model and --csv can go to standard output"
+            );
         }
         let tables = match table {
             Some(path) if is_dash(path) => {
@@ -102,6 +108,7 @@ impl Pictures {
             vtk,
             gltf: gltf.transpose()?,
             obj: open(args.obj.as_deref())?,
+            model: args.model.as_deref().map(readable_by).transpose()?,
             hides: args.hide.is_some(),
             measures: args.dimensions,
             frames: None,
@@ -118,7 +125,11 @@ impl Pictures {
 
     /// Whether anything is to be made.
     pub fn wanted(&self) -> bool {
-        self.svg.is_some() || self.vtk.is_some() || self.csv.is_some() || self.is_solid()
+        self.svg.is_some()
+            || self.vtk.is_some()
+            || self.csv.is_some()
+            || self.model.is_some()
+            || self.is_solid()
     }
 
     /// Whether blocks are to be written for programs that show them in space.
@@ -178,6 +189,11 @@ impl Pictures {
         if let Some(sink) = &self.obj {
             sink.write(&obj::obj(view))?;
         }
+        if let Some((sink, program)) = &self.model {
+            let file = models::model(view, *program)?;
+            sink.write(&file.text)?;
+            file.notes.iter().for_each(|note| say(&format!("note: --model: {note}")));
+        }
         if let Some(svg) = &self.svg {
             svg.write(&drawing::svg(view, self.aspect))?;
         }
@@ -222,6 +238,18 @@ fn film(sink: &Sink, folder: &Path, view: &View) -> anyhow::Result<()> {
         // Not where something else is in it.
         let _ = fs::remove_dir(folder);
     })
+}
+
+/// The file of a model, and the program that its ending names.
+fn readable_by(path: &Path) -> anyhow::Result<(Sink, Program)> {
+    let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
+    let Some(program) = ending.as_deref().and_then(Program::of_ending) else {
+        bail!(
+            "--model {}: the ending says which program reads it: .xml for MuJoCo, .3ddat for 3DEC",
+            path.display()
+        );
+    };
+    Ok((Sink::open(Some(path))?, program))
 }
 
 fn is_dash(path: &Path) -> bool {

@@ -161,6 +161,7 @@ impl<'a> Session<'a> {
             ("--vtk", args.vtk.as_deref()),
             ("--gltf", args.gltf.as_deref()),
             ("--obj", args.obj.as_deref()),
+            ("--model", args.model.as_deref()),
             ("--csv", table),
         ];
         for (option, path) in given.into_iter().filter_map(|(o, p)| Some((o, p?))) {
@@ -172,7 +173,7 @@ impl<'a> Session<'a> {
         pictures.are_drawn(self.report.is_some())?;
         if pictures.printed() && (self.common.json || report::is_printed(&self.common.report)) {
             bail!(
-                "only one of --svg, --vtk, --gltf, --obj, --report and --json can go to standard output"
+                "only one of --svg, --vtk, --gltf, --obj, --model, --report and --json can go to standard output"
             );
         }
         Ok(Self { pictures, ..self })

@@ -16,6 +16,7 @@ pub mod imported;
 pub mod inspection;
 pub mod json;
 pub mod keys;
+pub mod models;
 pub mod obj;
 pub mod page;
 pub mod record;

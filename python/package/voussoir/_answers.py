@@ -487,6 +487,18 @@ class Answer:
         """Write the displaced blocks (``.obj``)."""
         _write(path, self._core.obj())
 
+    def model(self, path: str | os.PathLike[str]) -> list[str]:
+        """Write the blocks as a model of another program: of MuJoCo (``.xml``), of 3DEC (``.3ddat``).
+
+        Returns
+        -------
+        list of str
+            What of the scene is not in it, such as loads.
+        """
+        text, notes = self._core.model(os.path.splitext(path)[1].lstrip(".").lower())
+        _write(path, text)
+        return notes
+
     def table(self, which: str = "joints") -> str:
         """A table with commas: ``joints``, ``blocks``, ``members``."""
         return self._core.csv(which)

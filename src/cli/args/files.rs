@@ -95,8 +95,7 @@ pub struct Generate {
 
 #[derive(Debug, Args)]
 pub struct Import {
-    /// The files; PLY and STL hold one block each.
-    #[arg(required = true)]
+    /// The files; PLY and STL hold one block each. Without files, the formats are listed.
     pub files: Vec<PathBuf>,
     /// Write the scene to this file; by default to standard output.
     #[arg(short, long, value_name = "FILE", value_parser = output(Written::Json), help_heading = "Output")]

@@ -215,7 +215,7 @@ pub enum Verb {
     /// is omitted. `voussoir generate arch --help` lists the keys of an arch.
     #[command(disable_help_flag = true)]
     Generate(Generate),
-    /// Make a scene from files of other programs: COMPAS JSON, OBJ, DXF, SVG, 3DEC, PLY, STL, tables.
+    /// Make a scene from files of other programs: drawings, meshes, robots, grains, packing lists.
     ///
     /// Assumptions and omissions are reported on standard error. Exit code 0 if questions about the
     /// scene can be answered, 1 if not, 3 if the search for mistakes did not finish.

@@ -48,6 +48,8 @@ pub enum Written {
     Gltf,
     /// Meshes of blocks.
     Obj,
+    /// Models of other programs.
+    Model,
     /// Grains as a table, points or a dump.
     Grains,
     /// A folder of several files.
@@ -66,6 +68,7 @@ impl Written {
             Self::Vtk => "a file for ParaView (VTK XML)",
             Self::Gltf => "a 3D model (glTF)",
             Self::Obj => "a mesh (OBJ)",
+            Self::Model => "a model of MuJoCo (MJCF) or 3DEC",
             Self::Grains => "grains as a table (CSV), points (VTK XML) or a dump of LIGGGHTS",
             Self::Folder => "several files into a folder",
         }
@@ -82,6 +85,7 @@ impl Written {
             Self::Vtk => &["vtp", "pvd"],
             Self::Gltf => &["gltf", "glb"],
             Self::Obj => &["obj"],
+            Self::Model => &["xml", "mjcf", "3ddat", "3dec", "dat"],
             Self::Grains => &["csv", "vtp", "dump", "liggghts", "lammpstrj"],
             Self::Folder => &[],
         }

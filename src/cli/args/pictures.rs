@@ -43,6 +43,12 @@ pub struct Pictures {
     /// states its size.
     #[arg(long, value_name = "FILE", value_parser = output(Written::Obj), help_heading = "Pictures")]
     pub obj: Option<PathBuf>,
+    /// Write the blocks as a model of another program to this file: MuJoCo (.xml), 3DEC (.3ddat).
+    ///
+    /// It holds shapes, masses, supports, gravity and friction. What it has no place for, such as
+    /// loads and ties, is reported.
+    #[arg(long, value_name = "FILE", value_parser = output(Written::Model), help_heading = "Pictures")]
+    pub model: Option<PathBuf>,
     /// Leave supports out of --svg, --gltf, --obj and --report.
     #[arg(long, value_name = "WHAT", value_enum, help_heading = "Pictures")]
     pub hide: Option<Hide>,

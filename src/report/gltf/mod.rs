@@ -19,9 +19,8 @@ use super::view::View;
 use animation::animations;
 use buffer::Buffer;
 use data_encoding::BASE64;
-use nalgebra::{UnitQuaternion, Vector3};
 use serde_json::{Value, json};
-use shapes::Shapes;
+use shapes::{Shapes, upright};
 
 /// Magic number of the binary container, and its kinds of chunks.
 const MAGIC: u32 = 0x4654_6c67;
@@ -65,13 +64,6 @@ pub fn binary(view: &View) -> Result<Vec<u8>, serde_json::Error> {
         out.extend(bytes);
     }
     Ok(out)
-}
-
-/// The turn that brings what is up in the scene to y.
-fn upright(view: &View) -> UnitQuaternion<f64> {
-    UnitQuaternion::rotation_between(&view.ground, &Vector3::y()).unwrap_or_else(|| {
-        UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI)
-    })
 }
 
 /// The document, and what its one buffer holds.

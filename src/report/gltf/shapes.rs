@@ -5,7 +5,7 @@ use crate::{
     view::{BlockView, Surface, View, ViewShape},
     vtk::ball,
 };
-use nalgebra::Vector3;
+use nalgebra::{UnitQuaternion, Vector3};
 use serde_json::{Value, json};
 
 /// Colours of stone that take turns, one a material; linear red, green, blue.
@@ -23,12 +23,19 @@ const MEMBER: [f64; 3] = [0.0, 0.14, 0.11];
 /// Halvings of the octahedron that a ball is drawn as.
 const BALL: usize = 3;
 
+/// The turn that brings what is up in the scene to y.
+pub(super) fn upright(view: &View) -> UnitQuaternion<f64> {
+    UnitQuaternion::rotation_between(&view.ground, &Vector3::y()).unwrap_or_else(|| {
+        UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI)
+    })
+}
+
 /// A point of the scene in the coordinates of the file; to the last digit where z is up.
 fn in_file(view: &View, p: Vector3<f64>) -> [f64; 3] {
     if view.ground == Vector3::z() {
         return [p.x, p.z, 0.0 - p.y];
     }
-    (super::upright(view) * p).into()
+    (upright(view) * p).into()
 }
 
 /// The shape of a block in double precision, and its centre of mass.

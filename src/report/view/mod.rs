@@ -39,7 +39,7 @@ use model::{
     assembly::{AppliedForce, JointLaw},
     interface::{ContactKind, Model},
 };
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 /// A certificate that does not fit the scene it is shown with.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -107,8 +107,12 @@ pub struct BlockView {
     pub material: Option<String>,
     /// Mass, kg.
     pub mass: f64,
+    /// Volume, m³.
+    pub volume: f64,
     /// Centre of mass, m.
     pub center: Vector3<f64>,
+    /// Inertia about it, kg·m².
+    pub inertia: Matrix3<f64>,
     /// Its surface.
     pub shape: ViewShape,
 }
@@ -219,7 +223,9 @@ impl View {
                 support: b.support,
                 material: b.material.clone(),
                 mass: b.mass,
+                volume: b.solid.volume(),
                 center: b.centroid,
+                inertia: b.inertia,
                 shape: ViewShape::of(&b.solid),
             })
             .collect();

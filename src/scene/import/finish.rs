@@ -2,8 +2,8 @@
 
 use super::{
     ImportOptions, Imported, Origin, Up,
-    raw::{Grain, Ground, Raw, Solid, list, tally},
-    surface::{self, Surface},
+    raw::{Grain, Ground, Raw, Solid, Surface, list, tally},
+    surface,
 };
 use crate::{At, Ball, BlockSpec, Material, Scene, Shape};
 use base::{
@@ -78,6 +78,7 @@ pub(super) fn scene(mut files: Vec<Raw>, options: &ImportOptions) -> Result<Impo
             load.force = load.force.map(|f| up.rotate(f));
             scene.loads.live.push(load);
         }
+        scene.stages.extend(file.stages);
         if !options.stored_interfaces {
             unwanted += file.interfaces.len();
             continue;
@@ -230,6 +231,7 @@ fn name_files_apart(files: &mut [Raw]) -> Result<Vec<Finding>, InputError> {
             let ends = member.tie.iter_mut().flat_map(|t| &mut t.between);
             ends.flat_map(|e| &mut e.block).for_each(|b| *b = rename(b));
         }
+        file.stages.iter_mut().flat_map(|s| &mut s.add).for_each(|b| *b = rename(b));
         file.loads.iter_mut().flat_map(|l| &mut l.block).for_each(|b| *b = rename(b));
         prefixes.push(prefix);
     }

@@ -1,7 +1,7 @@
 //! Which format a file has.
 
 use super::{
-    stl,
+    packing, stl,
     text::{split, unmarked},
     threedec, xml,
 };
@@ -33,26 +33,100 @@ pub enum Format {
     Sdf,
     /// glTF 2.0, as text or binary.
     Gltf,
+    /// A list of boxes with their places (CSV).
+    Packing,
     /// Spheres, as a table or as a dump of LIGGGHTS or LAMMPS.
     Grains,
 }
 
+/// A format for people.
+#[derive(Clone, Copy, Debug)]
+pub struct Known {
+    /// Which one.
+    pub format: Format,
+    /// What it is called.
+    pub name: &'static str,
+    /// Endings of its files that say so alone.
+    pub endings: &'static [&'static str],
+    /// What becomes a block.
+    pub holds: &'static str,
+    /// Arguments of `voussoir import`.
+    pub example: &'static str,
+}
+
+const fn known(
+    format: Format,
+    name: &'static str,
+    endings: &'static [&'static str],
+    holds: &'static str,
+    example: &'static str,
+) -> Known {
+    Known { format, name, endings, holds, example }
+}
+
+/// All that are read.
+pub const FORMATS: [Known; 13] = [
+    known(
+        Format::Dxf,
+        "DXF",
+        &["dxf"],
+        "outlines and bodies of a drawing",
+        "arch.dxf --depth 0.5 --layer GROUND=support",
+    ),
+    known(
+        Format::Svg,
+        "SVG",
+        &["svg"],
+        "outlines of a drawing",
+        "arch.svg --depth 0.5 --layer ground=support",
+    ),
+    known(
+        Format::Obj,
+        "OBJ",
+        &["obj"],
+        "objects, groups or connected parts",
+        "vault.obj --support-below 0.1",
+    ),
+    known(Format::Ply, "PLY", &["ply"], "a file a block", "*.ply --support base"),
+    known(
+        Format::Stl,
+        "STL",
+        &["stl"],
+        "a solid, or a file, a block",
+        "*.stl --support base --scale 0.001",
+    ),
+    known(Format::Gltf, "glTF", &["gltf", "glb"], "nodes with a mesh", "vault.glb --support base"),
+    known(Format::Compas, "COMPAS JSON", &["json"], "nodes, elements, meshes", "assembly.json"),
+    known(
+        Format::ThreeDec,
+        "3DEC",
+        &["3ddat", "3dec"],
+        "commands that create blocks",
+        "geometry.dat --layer base=support",
+    ),
+    known(Format::Mjcf, "MJCF", &["mjcf"], "bodies of MuJoCo, also as .xml", "scene.xml"),
+    known(Format::Urdf, "URDF", &["urdf"], "bodies of robots", "object.urdf"),
+    known(Format::Sdf, "SDF", &["sdf"], "bodies of Gazebo", "world.sdf"),
+    known(
+        Format::Packing,
+        "packing list",
+        &["csv"],
+        "boxes with their places, in order",
+        "pallet.csv --friction 0.4",
+    ),
+    known(
+        Format::Grains,
+        "grains",
+        &["csv", "dump", "liggghts", "lammpstrj"],
+        "spheres and clumps",
+        "heap.dump --friction 0.5",
+    ),
+];
+
 impl fmt::Display for Format {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Format::Compas => "COMPAS JSON",
-            Format::Obj => "OBJ",
-            Format::Dxf => "DXF",
-            Format::ThreeDec => "3DEC",
-            Format::Svg => "SVG",
-            Format::Ply => "PLY",
-            Format::Stl => "STL",
-            Format::Mjcf => "MJCF",
-            Format::Urdf => "URDF",
-            Format::Sdf => "SDF",
-            Format::Gltf => "glTF",
-            Format::Grains => "grains",
-        })
+        let name = FORMATS.iter().find(|k| k.format == *self).map_or("", |k| k.name);
+        f.write_str(name)
     }
 }
 
@@ -63,25 +137,25 @@ impl Format {
         bytes: &[u8],
         asked: Option<Format>,
     ) -> Result<Format, InputError> {
-        let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
-        asked
-            .or(match extension.as_deref() {
-                Some("json") => Some(Format::Compas),
-                Some("obj") => Some(Format::Obj),
-                Some("dxf") => Some(Format::Dxf),
-                Some("3ddat" | "3dec") => Some(Format::ThreeDec),
-                Some("svg") => Some(Format::Svg),
-                Some("ply") => Some(Format::Ply),
-                Some("stl") => Some(Format::Stl),
-                Some("gltf" | "glb") => Some(Format::Gltf),
-                Some("csv" | "dump" | "liggghts" | "lammpstrj") => Some(Format::Grains),
-                _ => None,
-            })
-            .or_else(|| Format::by_content(bytes))
-            .ok_or_else(|| {
-                InputError::at(JsonPath::root(), "the format is unknown from both the extension and the content")
-                    .hint("known formats are COMPAS JSON, OBJ, DXF, SVG, 3DEC, PLY, STL, glTF, MJCF, URDF, SDF, and tables or dumps of grains; name the file .json, .obj, .dxf, .svg, .3ddat, .ply, .stl, .gltf, .glb, .csv or .dump; the root of an XML file is <mujoco>, <robot> or <sdf>")
-            })
+        let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
+        let by_ending = || {
+            let ending = ending.as_deref()?;
+            let all = FORMATS.iter().filter(|k| k.endings.contains(&ending)).map(|k| k.format);
+            // Boxes and spheres are both tables.
+            all.into_iter().find(|f| *f != Format::Packing || packing::looks_like(bytes))
+        };
+        asked.or_else(by_ending).or_else(|| Format::by_content(bytes)).ok_or_else(|| {
+            let names: Vec<&str> = FORMATS.iter().map(|k| k.name).collect();
+            let hint = format!(
+                "known formats are {}; `voussoir import` alone lists them with their endings",
+                names.join(", ")
+            );
+            InputError::at(
+                JsonPath::root(),
+                "the format is unknown from both the extension and the content",
+            )
+            .hint(hint)
+        })
     }
 
     fn by_content(bytes: &[u8]) -> Option<Format> {

@@ -11,6 +11,7 @@
 //! | STL | ASCII and binary | a `solid`, a binary file |
 //! | MJCF, URDF, SDF | shapes that touch of rigid bodies; what is articulated is refused | a free body with all that is welded to it; a shape that is held |
 //! | glTF | text and binary, triangles; exact shapes of our own exports | a node with a mesh |
+//! | packing list | tables (CSV) of boxes with their places, in order | a box; a stage a box |
 //! | grains | tables (CSV), dumps of LIGGGHTS and LAMMPS | a sphere, a clump of them |
 //!
 //! Importers say what the file says: faces keep their corners and their order, nothing is welded,
@@ -36,6 +37,7 @@ mod mesh;
 mod mjcf;
 mod obj;
 mod options;
+mod packing;
 mod ply;
 mod raw;
 mod rigid;
@@ -52,6 +54,7 @@ mod xml;
 mod tests;
 
 pub use format::Format;
+pub use format::{FORMATS, Known};
 pub use layer::{LayerRule, Role};
 pub use mesh::{Reach, read_meshes};
 pub use options::{ImportOptions, Up};
@@ -185,6 +188,7 @@ fn read(
             Format::Svg => svg::read(bytes, options),
             Format::Ply => ply::read(bytes, &stem),
             Format::Stl => stl::read(bytes, &stem),
+            Format::Packing => packing::read(bytes, options),
             Format::Grains => grains::read(bytes),
             Format::Mjcf => mjcf::read(bytes, folder),
             Format::Urdf => urdf::read(bytes, folder),

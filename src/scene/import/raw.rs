@@ -1,7 +1,7 @@
 //! What the readers of all formats hand over: blocks and interfaces in the coordinates of the file.
 
-use super::{ImportOptions, Up, surface::Surface};
-use crate::{InterfaceSpec, Load, Material, Member};
+use super::{ImportOptions, Up};
+use crate::{InterfaceSpec, Load, Material, Member, StageSpec};
 use base::{
     error::{Finding, FindingCode},
     plane::Sets,
@@ -35,6 +35,8 @@ pub(super) struct Raw {
     pub members: Vec<Member>,
     /// Live loads.
     pub loads: Vec<Load>,
+    /// Stages of construction.
+    pub stages: Vec<StageSpec>,
     pub findings: Vec<Finding>,
 }
 
@@ -62,6 +64,27 @@ pub(super) struct Heft {
     pub mass: Option<f64>,
     /// Centre of mass, where it is not that of the shape, in the coordinates of the file.
     pub centroid: Option<[f64; 3]>,
+}
+
+/// How the friction of two surfaces makes that of a joint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Rule {
+    /// The greater one, as MuJoCo does.
+    Greater,
+    /// The lesser one, as Gazebo does with ODE.
+    Lesser,
+}
+
+/// The surface of a block, where files give friction to blocks and not to pairs of them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Surface {
+    /// Coefficient of friction.
+    pub friction: f64,
+    /// That of the higher priority decides alone (MuJoCo).
+    pub priority: i64,
+    /// Without friction against others that are (MuJoCo, `condim="1"`).
+    pub is_smooth: bool,
+    pub rule: Rule,
 }
 
 /// An unbounded plane that holds.

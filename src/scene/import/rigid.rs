@@ -4,8 +4,7 @@
 //! is held, every shape is a block of its own.
 
 use super::{
-    raw::{Grain, Ground, Heft, Raw, Solid, tally},
-    surface::Surface,
+    raw::{Grain, Ground, Heft, Raw, Solid, Surface, tally},
     text,
 };
 use crate::Material;
@@ -420,7 +419,8 @@ pub(super) fn of_mesh(vertices: &[[f64; 3]], faces: &[Vec<usize>]) -> (f64, Poin
     (six.abs() / 6.0, Point3::from(origin + middle))
 }
 
-fn cuboid([x, y, z]: [f64; 3]) -> Mesh {
+/// A box by half its sides, about the origin.
+pub(super) fn cuboid([x, y, z]: [f64; 3]) -> Mesh {
     let corner = |k: usize| {
         let side = |bit: usize, half: f64| if k >> bit & 1 == 1 { half } else { -half };
         [side(0, x), side(1, y), side(2, z)]

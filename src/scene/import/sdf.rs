@@ -5,9 +5,8 @@
 //! Open Robotics, *SDFormat specification* 1.11 (sdformat.org).
 
 use super::{
-    raw::{Raw, tally},
+    raw::{Raw, Rule, Surface, tally},
     rigid::{self, Body, Form, Mesh, Part, Weight},
-    surface::{Rule, Surface},
     text::shorten,
     urdf,
     xml::{Xml, called, child, elements},

@@ -1,6 +1,6 @@
 //! Friction that files give to the blocks and not to pairs of them.
 
-use super::raw::tally;
+use super::raw::{Rule, Surface, tally};
 use crate::{Friction, JointOverride, Joints, Scene};
 use base::error::{Finding, FindingCode, InputError, JsonPath};
 use std::collections::BTreeMap;
@@ -8,27 +8,6 @@ use std::collections::BTreeMap;
 /// Most different surfaces of a scene. More: the exceptions for pairs of them, by the square, take more
 /// memory than any file. Fewer: scenes with friction drawn by chance for groups of blocks are refused.
 const MOST: usize = 64;
-
-/// How the friction of two surfaces makes that of a joint.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Rule {
-    /// The greater one, as MuJoCo does.
-    Greater,
-    /// The lesser one, as Gazebo does with ODE.
-    Lesser,
-}
-
-/// The surface of a block.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Surface {
-    /// Coefficient of friction.
-    pub friction: f64,
-    /// That of the higher priority decides alone (MuJoCo).
-    pub priority: i64,
-    /// Without friction against others that are (MuJoCo, `condim="1"`).
-    pub is_smooth: bool,
-    pub rule: Rule,
-}
 
 impl Surface {
     /// Coefficient of friction of a joint.

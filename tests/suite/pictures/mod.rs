@@ -2,6 +2,7 @@
 
 mod loads;
 mod models;
+mod round_trips;
 mod shown;
 mod svg;
 mod table;

@@ -1,52 +1,76 @@
 //! Meshes of a model.
 
-use super::{Reader, place};
+use super::{attributes::Classes, place};
 use crate::{
     generate::hull,
     import::{
         mesh::beside,
         rigid::Mesh,
         text::shorten,
-        xml::{called, elements},
+        xml::{Xml, called, elements},
     },
 };
-use base::error::InputError;
+use base::error::{Finding, InputError};
 use nalgebra::{UnitQuaternion, Vector3};
 use roxmltree::Node;
-use std::{collections::HashMap, path::Path, rc::Rc};
+use std::{
+    collections::HashMap,
+    path::{Path, PathBuf},
+    rc::Rc,
+};
 
 /// The meshes by their names, and those that were wanted already.
-#[derive(Default)]
-pub(super) struct Meshes<'a, 'i> {
+pub(super) struct Meshes<'x, 'a, 'i> {
+    xml: &'x Xml<'a>,
+    classes: &'x Classes<'a, 'i>,
+    /// That of the model, and the one below it where its meshes are.
+    folder: Option<&'x Path>,
+    pub below: PathBuf,
+    /// Whether only the names of files count, not their folders.
+    pub strips_path: bool,
+    /// What their files said.
+    pub findings: Vec<Finding>,
     nodes: HashMap<String, Node<'a, 'i>>,
     known: HashMap<String, Rc<Mesh>>,
 }
 
-impl<'a, 'i> Meshes<'a, 'i> {
+impl<'x, 'a, 'i> Meshes<'x, 'a, 'i> {
     /// Those of a model; none is read yet.
-    pub fn of(model: Node<'a, 'i>) -> Self {
+    pub fn of(
+        model: Node<'a, 'i>,
+        xml: &'x Xml<'a>,
+        classes: &'x Classes<'a, 'i>,
+        folder: Option<&'x Path>,
+    ) -> Self {
         let assets = elements(model).filter(|n| n.has_tag_name("asset")).flat_map(elements);
         let named = assets.filter(|n| n.has_tag_name("mesh")).filter_map(|n| {
             let of_file =
                 || Some(Path::new(n.attribute("file")?).file_stem()?.to_str()?.to_string());
             Some((n.attribute("name").map(str::to_string).or_else(of_file)?, n))
         });
-        Self { nodes: named.collect(), known: HashMap::new() }
+        Self {
+            xml,
+            classes,
+            folder,
+            below: PathBuf::new(),
+            strips_path: false,
+            findings: Vec::new(),
+            nodes: named.collect(),
+            known: HashMap::new(),
+        }
     }
-}
 
-impl<'a, 'i> Reader<'_, 'a, 'i> {
     /// The mesh that an element names.
-    pub(super) fn mesh(&mut self, user: Node, name: &str) -> Result<Rc<Mesh>, InputError> {
-        if let Some(mesh) = self.meshes.known.get(name) {
+    pub fn mesh(&mut self, user: Node, name: &str) -> Result<Rc<Mesh>, InputError> {
+        if let Some(mesh) = self.known.get(name) {
             return Ok(Rc::clone(mesh));
         }
-        let Some(node) = self.meshes.nodes.get(name).copied() else {
+        let Some(node) = self.nodes.get(name).copied() else {
             let text = format!("{}: no mesh is called {:?}", called(user), shorten(name));
             return Err(self.xml.error(user, text).hint("meshes stand in the section <asset>"));
         };
         let mesh = Rc::new(self.made(node)?);
-        self.meshes.known.insert(name.into(), Rc::clone(&mesh));
+        self.known.insert(name.into(), Rc::clone(&mesh));
         Ok(mesh)
     }
 
@@ -91,10 +115,10 @@ impl<'a, 'i> Reader<'_, 'a, 'i> {
             true => Path::new(file).file_name().map_or_else(|| Path::new(file), Path::new),
             false => Path::new(file),
         };
-        let path = self.mesh_folder.as_deref().unwrap_or(Path::new("")).join(base);
+        let path = self.below.join(base);
         let (mesh, said) = beside(self.folder, &path.to_string_lossy())
             .map_err(|e| InputError { position: Some((xml.line(node), 1)), ..e })?;
-        self.raw.findings.extend(said);
+        self.findings.extend(said);
         Ok(mesh)
     }
 

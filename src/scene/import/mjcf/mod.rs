@@ -13,9 +13,8 @@ mod mesh;
 mod place;
 
 use super::{
-    raw::{Raw, tally},
+    raw::{Raw, Rule, Surface, tally},
     rigid::{self, Body, Form, Part, Weight},
-    surface::{Rule, Surface},
     xml::{Xml, called, child, elements},
 };
 use attributes::{Attributes, Classes};
@@ -24,10 +23,7 @@ use mesh::Meshes;
 use nalgebra::{Isometry3, Point3, Vector3};
 use place::Angles;
 use roxmltree::Node;
-use std::{
-    collections::BTreeMap,
-    path::{Path, PathBuf},
-};
+use std::{collections::BTreeMap, path::Path};
 
 /// MuJoCo's defaults.
 const GRAVITY: [f64; 3] = [0.0, 0.0, -9.81];
@@ -43,12 +39,9 @@ const COMPILE: &str = "compile the model and save what came out: mujoco.mj_saveL
 /// Reads one model.
 struct Reader<'x, 'a, 'i> {
     xml: &'x Xml<'a>,
-    folder: Option<&'x Path>,
     classes: &'x Classes<'a, 'i>,
-    meshes: Meshes<'a, 'i>,
+    meshes: Meshes<'x, 'a, 'i>,
     angles: Angles,
-    mesh_folder: Option<PathBuf>,
-    strips_path: bool,
     /// `inertiafromgeom`: whether inertias given are used, where they are not the last word anyway.
     uses_inertial: bool,
     bodies: Vec<Body>,
@@ -102,12 +95,9 @@ pub(super) fn read(bytes: &[u8], folder: Option<&Path>) -> Result<Raw, InputErro
     let classes = Classes::read(&xml, model)?;
     let mut reader = Reader {
         xml: &xml,
-        folder,
         classes: &classes,
-        meshes: Meshes::of(model),
+        meshes: Meshes::of(model, &xml, &classes, folder),
         angles: Angles::default(),
-        mesh_folder: None,
-        strips_path: false,
         uses_inertial: true,
         bodies: Vec::new(),
         raw: Raw::default(),
@@ -139,10 +129,10 @@ impl<'a, 'i> Reader<'_, 'a, 'i> {
             }
             let assets = || node.attribute("assetdir");
             if let Some(folder) = node.attribute("meshdir").or_else(assets) {
-                self.mesh_folder = Some(folder.into());
+                self.meshes.below = folder.into();
             }
             if let Some(word) = node.attribute("strippath") {
-                self.strips_path = word == "true";
+                self.meshes.strips_path = word == "true";
             }
             if let Some(word) = node.attribute("inertiafromgeom") {
                 self.uses_inertial = word != "true";
@@ -464,7 +454,7 @@ impl<'a, 'i> Reader<'_, 'a, 'i> {
                 let Some(name) = own.get("mesh") else {
                     return refuse("a mesh without its name", "add mesh=\"NAME\"");
                 };
-                let mesh = self.mesh(node, name)?;
+                let mesh = self.meshes.mesh(node, name)?;
                 self.note(Note::Meshes, format!("{} (line {})", called(node), xml.line(node)));
                 Form::Mesh(mesh)
             }

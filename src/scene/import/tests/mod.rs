@@ -7,6 +7,7 @@ mod compas;
 mod dxf;
 mod mesh_formats;
 mod options;
+mod packing;
 mod real;
 mod svg;
 mod threedec;
