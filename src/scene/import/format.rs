@@ -182,6 +182,8 @@ impl Format {
                 && split(text).nth(1).is_some_and(|l| l.trim_ascii() == b"SECTION"))
         {
             Some(Format::Dxf)
+        } else if packing::looks_like(text) {
+            Some(Format::Packing)
         } else if threedec::looks_like(text) {
             Some(Format::ThreeDec)
         } else if text.starts_with(b"ply\n") || text.starts_with(b"ply\r") {

@@ -99,7 +99,11 @@ impl Seeds {
         let json = |name: &str| name.ends_with(".json") && name != "expected.json";
         let scenes = files("structures", json)?;
         let plans = files("structures/sweeps", json)?;
-        let foreign = files("fuzz/import", |_| true)?;
+        let mut foreign = files("fuzz/import", |_| true)?;
+        for format in ["", "mjcf", "urdf", "sdf", "gltf"] {
+            let folder = format!("tests/formats/{format}");
+            foreign.extend(files(&folder, |n| !n.ends_with(".py") && n != "expected.json")?);
+        }
         let records = files("structures/records", |name| name.ends_with(".csv"))?;
         let (mut results, mut rows) = (Vec::new(), Vec::new());
         for name in ["wedge", "squeezed-block", "tied-arch", "three-cylinders"] {
@@ -369,9 +373,10 @@ fn rows(name: &str, bytes: &[u8]) -> Result<(), InputError> {
 }
 
 fn foreign(name: &str, bytes: &[u8]) -> Result<(), InputError> {
-    let imported = import_bytes(name, bytes, &ImportOptions::default())?;
+    let options = ImportOptions { depth: Some(1.0), ..ImportOptions::default() };
+    let imported = import_bytes(name, bytes, &options)?;
     let is_over = in_time();
-    drop(report::imported::examine(&imported, &ImportOptions::default(), &is_over));
+    drop(report::imported::examine(&imported, &options, &is_over));
     Ok(())
 }
 

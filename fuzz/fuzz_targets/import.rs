@@ -1,11 +1,12 @@
-//! Bytes → the importer of this format. What it makes is a scene: written and read again it is the
-//! same.
+//! Bytes → the importer of the format that they look like. What it makes is a scene: written and read again
+//! it is the same.
 #![no_main]
 use libfuzzer_sys::fuzz_target;
 use voussoir::import::{ImportOptions, import_bytes};
 
 fuzz_target!(|bytes: &[u8]| {
-    match import_bytes("fuzzed.stl", bytes, &ImportOptions::default()) {
+    let options = ImportOptions { depth: Some(1.0), ..ImportOptions::default() };
+    match import_bytes("fuzzed", bytes, &options) {
         Err(e) => voussoir_fuzz::said(&e),
         Ok(imported) => {
             let text = serde_json::to_string(&imported.scene).expect("a scene has a JSON form");

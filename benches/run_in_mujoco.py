@@ -1,7 +1,7 @@
 """Runs the scenes of structures/ in MuJoCo, as `voussoir assess --model` writes them, and compares with the
 verdicts: what stands may not move, what falls must. Needs `pip install mujoco`.
 
-    python benches/mujoco.py target/release/voussoir [NAME ...]
+    python benches/run_in_mujoco.py target/release/voussoir [NAME ...]
 """
 
 import pathlib
