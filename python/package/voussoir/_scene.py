@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from . import _core
 from ._errors import InputError
+from ._models import as_obj
 from ._plain import Value, Vector
 from ._scene_keys import Joint, Load, Material, SceneMethods
 
@@ -320,7 +321,9 @@ def import_file(
     depth: float | None = None,
     layers: Mapping[str, str | Mapping[str, Any]] | None = None,
 ) -> Scene:
-    """Make a scene of files of other programs: COMPAS JSON, OBJ, DXF, SVG, 3DEC, PLY, STL.
+    """Make a scene of files of other programs: drawings, meshes, robots, packing lists, grains.
+
+    Rhino's ``.3dm`` is read by rhino3dm, IFC by ifcopenshell, where they are installed.
 
     Parameters
     ----------
@@ -348,7 +351,7 @@ def import_file(
     depth : float, optional
         Thickness of the blocks of a plane drawing (DXF), m.
     layers : mapping of str or mapping, optional
-        What layers of a drawing stand for: ``"support"``, ``"block,density=2400"``,
+        What layers of a drawing, of a model of Rhino, or classes of IFC stand for: ``"support"``, ``"block,density=2400"``,
         ``"tie,strength=50000"``, ``"load,force=0:-1000"``, ``"ignore"``, or the same as a mapping
         (``{"role": "block", "density": 2400}``). Layers that are not named hold blocks.
 
@@ -377,8 +380,20 @@ def import_file(
     >>> scene.to_dict()["blocks"][0]["shape"]["polyhedron"]["vertices"][1]
     [0.6, 0.0, 0.0]
     """
+    files = [os.fspath(path) for path in paths]
+    name = data = None
+    for file in files:
+        solids = as_obj(file)
+        if solids is None:
+            continue
+        if len(files) > 1:
+            raise InputError(f"{file}: import it alone, files of this kind hold whole models")
+        data, unit = solids
+        files, name, scale = [], os.path.basename(file), unit if scale is None else scale
     scene, _ = _core.import_scene(
-        [os.fspath(path) for path in paths],
+        files,
+        name=name,
+        data=data,
         supports=list(supports),
         support_below=support_below,
         support_files=[os.fspath(path) for path in support_files],

@@ -180,9 +180,17 @@ fn read(
     let stem =
         path.file_stem().map_or_else(|| "block".into(), |s| s.to_string_lossy().into_owned());
     let result = Format::of(path, bytes, options.format).and_then(|format| {
+        let has_layers =
+            matches!(format, Format::Dxf | Format::Svg | Format::ThreeDec | Format::Obj);
+        if !(has_layers || options.layers.is_empty()) {
+            let text = format!("rules for layers, but a {format} file has none");
+            return Err(InputError::at(JsonPath::root(), text).hint(
+                "choose what is held with `--support ID`, and the density with `--density`",
+            ));
+        }
         let mut raw = match format {
             Format::Compas => compas::read(bytes),
-            Format::Obj => obj::read(bytes, &stem),
+            Format::Obj => obj::read(bytes, &stem, options),
             Format::Dxf => dxf::read(bytes, options),
             Format::ThreeDec => threedec::read(bytes, options),
             Format::Svg => svg::read(bytes, options),

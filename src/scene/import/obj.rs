@@ -4,11 +4,15 @@
 //! and does not check indices, and `tobj` starts a new mesh at every change of colour and names no
 //! line in its errors. The subset a solid needs is four statements.
 //!
+//! Where rules of layers are given, the groups of a file with objects are layers.
+//!
 //! Indices count from 1 over the whole file, negative ones from the last corner so far backwards; a
 //! face may come before its corners where its indices are positive. Only the first index of `v/t/n`
 //! matters.
 
 use super::{
+    ImportOptions,
+    drawing::{Drawing, Drawn},
     raw::{LEAST_FACES, Raw, Solid, compact, parts, tally},
     text::{self, shorten},
 };
@@ -34,6 +38,9 @@ const SKIPPED: [&str; 15] = [
     "l",
 ];
 
+/// The layer of what is in no group.
+const NO_LAYER: &str = "default";
+
 struct Face {
     line: usize,
     corners: Vec<usize>,
@@ -42,12 +49,12 @@ struct Face {
 }
 
 /// The blocks of an OBJ file.
-pub(super) fn read(bytes: &[u8], stem: &str) -> Result<Raw, InputError> {
+pub(super) fn read(bytes: &[u8], stem: &str, options: &ImportOptions) -> Result<Raw, InputError> {
     let mut raw = Raw::default();
     let mut vertices = Vec::new();
     let mut faces: Vec<Face> = Vec::new();
     // Number 0 is what comes before the first `o` or `g`.
-    let (mut objects, mut groups) = (vec![String::new()], vec![String::new()]);
+    let (mut objects, mut groups) = (vec![String::new()], vec![NO_LAYER.to_string()]);
     let mut group_numbers: HashMap<String, usize> = HashMap::new();
     let mut group = 0;
     let mut unknown = Vec::new();
@@ -99,10 +106,27 @@ pub(super) fn read(bytes: &[u8], stem: &str) -> Result<Raw, InputError> {
         )
         .hint("export meshes, not points, curves or surfaces"));
     }
+    if !options.layers.is_empty() {
+        if objects.len() < 2 || groups.len() < 2 {
+            let text = "rules for layers, but no groups (`g`) with objects (`o`) in this OBJ file";
+            return Err(InputError::at(JsonPath::root(), text).hint(
+                "export objects with their layers as groups, or choose what is held with `--support ID`",
+            ));
+        }
+        let mut layer_of = vec![0; objects.len()];
+        faces.iter().rev().for_each(|f| layer_of[f.object] = f.group);
+        let mut drawing = Drawing::default();
+        for (object, what) in gather(&vertices, faces, &objects, |f| f.object) {
+            let (id, layer) = (what.id.clone(), groups[layer_of[object]].clone());
+            drawing.bodies.push(Drawn { id, layer, line: what.line, what });
+        }
+        return drawing.into_raw(raw, options);
+    }
+    let blocks = |all: Vec<(usize, Solid)>| all.into_iter().map(|(_, solid)| solid).collect();
     if objects.len() > 1 {
-        raw.blocks = gather(&vertices, faces, &objects, |f| f.object);
+        raw.blocks = blocks(gather(&vertices, faces, &objects, |f| f.object));
     } else if groups.len() > 1 {
-        raw.blocks = gather(&vertices, faces, &groups, |f| f.group);
+        raw.blocks = blocks(gather(&vertices, faces, &groups, |f| f.group));
         let count = raw.blocks.len();
         raw.say(
             FindingCode::Converted,
@@ -144,13 +168,13 @@ fn corner(line: usize, word: &str, so_far: usize) -> Result<usize, InputError> {
     })
 }
 
-/// One block per object (or group) that has faces.
+/// One block per object (or group) that has faces, with its number.
 fn gather(
     vertices: &[[f64; 3]],
     faces: Vec<Face>,
     names: &[String],
     of: impl Fn(&Face) -> usize,
-) -> Vec<Solid> {
+) -> Vec<(usize, Solid)> {
     let mut sorted: Vec<(Vec<usize>, Vec<Vec<usize>>)> =
         names.iter().map(|_| Default::default()).collect();
     for face in faces {
@@ -158,8 +182,10 @@ fn gather(
         lines.push(face.line);
         loops.push(face.corners);
     }
-    let some = names.iter().zip(sorted).filter(|(_, (_, faces))| !faces.is_empty());
-    some.map(|(name, (lines, faces))| compact(name.clone(), lines, vertices, faces)).collect()
+    let all = names.iter().zip(sorted).enumerate();
+    let some = all.filter(|(_, (_, (_, faces)))| !faces.is_empty());
+    some.map(|(k, (name, (lines, faces)))| (k, compact(name.clone(), lines, vertices, faces)))
+        .collect()
 }
 
 /// A file without names: its connected parts are the blocks.

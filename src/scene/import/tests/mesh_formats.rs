@@ -240,3 +240,31 @@ fn a_binary_ply_may_have_a_header_with_old_line_ends() {
     bytes[..header].iter_mut().filter(|b| **b == b'\n').for_each(|b| *b = b'\r');
     assert_eq!(good("a.ply", &bytes).scene.blocks, plain.scene.blocks);
 }
+
+/// Rules make layers of the groups of an OBJ file; formats without layers refuse them.
+#[test]
+fn groups_of_objects_are_layers_where_rules_are_given() {
+    let cube = |name: &str, layer: &str, z: f64, first: usize| {
+        let corner = |k: usize| format!("v {} {} {}\n", k & 1, k >> 1 & 1, z + (k >> 2) as f64);
+        let faces =
+            [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let face = |f: &[usize; 4]| format!("f {}\n", f.map(|k| (first + k).to_string()).join(" "));
+        let corners: String = (0..8).map(corner).collect();
+        format!("o {name}\ng {layer}\n{corners}{}", faces.iter().map(face).collect::<String>())
+    };
+    let text = cube("a", "base", 0.0, 1) + &cube("b", "stone", 1.0, 9);
+    let rules = [("base", "support"), ("stone", "block,density=2000")];
+    let layers = rules.map(|(l, r)| (l.to_string(), r.parse().expect("a rule"))).into();
+    let options = ImportOptions { layers, ..ImportOptions::default() };
+    let imported = import_bytes("m.obj", text.as_bytes(), &options).expect("a scene");
+    assert_eq!(ids(&imported), ["a", "b"]);
+    assert_eq!(imported.scene.blocks.iter().map(|b| b.support).collect::<Vec<_>>(), [true, false]);
+    assert_eq!(imported.scene.materials["stone"].density, 2000.0);
+    assert_eq!(ids(&good("m.obj", &text)), ["a", "b"]);
+    for (name, text) in
+        [("m.obj", text.replace("g ", "# ")), ("p.csv", "l,w,h,x,y,z\n1,1,1,0,0,0\n".into())]
+    {
+        let error = import_bytes(name, text.as_bytes(), &options).expect_err(name);
+        assert!(error.to_string().contains("rules for layers"), "{error}");
+    }
+}
