@@ -35,7 +35,9 @@ fn formats() -> String {
         let _ = writeln!(text, "  {:<13} {}", "", endings.join(", "));
         let _ = writeln!(text, "  {:<13} voussoir import {}\n", "", known.example);
     }
-    text.push_str("IFC, 3dm and STEP: export OBJ or STL with one object a block.\n");
+    text.push_str(
+        "Rhino (.3dm) and IFC: voussoir.import_file in Python, with rhino3dm or ifcopenshell.\nSTEP: export OBJ or STL with one object a block.\n",
+    );
     text
 }
 

@@ -198,7 +198,7 @@ def import_scene(
     friction: float | None = None,
     density: float | None = None,
     scale: float | None = None,
-    up: str = "z",
+    up: str | None = None,
     gap: float | None = None,
     angle_deg: float | None = None,
     stored_interfaces: bool = True,

@@ -3,6 +3,7 @@ layer or class as group. The readers are rhino3dm and ifcopenshell, where they a
 
 from __future__ import annotations
 
+import importlib
 import os
 import warnings
 from collections.abc import Iterable, Sequence
@@ -71,11 +72,17 @@ def _left_out(path: str, names: Sequence[str], why: str) -> None:
         warnings.warn(f"{path}: {why}: {len(names)} ({shown})", stacklevel=4)
 
 
-def _rhino(path: str) -> tuple[list[_Solid], float]:
+def _reader(path: str, name: str) -> Any:
+    """A module that is not of this package, and of whose types nothing is asked."""
     try:
-        import rhino3dm
+        return importlib.import_module(name)
     except ImportError:
-        raise InputError(f"{path}: .3dm needs rhino3dm", remedy="pip install rhino3dm") from None
+        package = name.partition(".")[0]
+        raise InputError(f"{path}: needs {package}", remedy=f"pip install {package}") from None
+
+
+def _rhino(path: str) -> tuple[list[_Solid], float]:
+    rhino3dm = _reader(path, "rhino3dm")
     model = rhino3dm.File3dm.Read(path)
     if model is None:
         raise InputError(f"{path}: rhino3dm cannot read this file")
@@ -124,8 +131,7 @@ def _of_mesh(mesh: Any) -> list[_Face]:
 
 def _of_brep(path: str, name: str, brep: Any) -> list[_Face]:
     """Plane faces by their corners, others by the mesh with which Rhino shows them."""
-    import rhino3dm
-
+    rhino3dm = _reader(path, "rhino3dm")
     faces: list[_Face] = []
     for k in range(len(brep.Faces)):
         face = brep.Faces[k]
@@ -150,13 +156,9 @@ def _of_brep(path: str, name: str, brep: Any) -> list[_Face]:
 
 
 def _ifc(path: str) -> tuple[list[_Solid], float]:
-    try:
-        import ifcopenshell
-        import ifcopenshell.geom
-    except ImportError:
-        raise InputError(f"{path}: IFC needs ifcopenshell", remedy="pip install ifcopenshell") from None
+    ifcopenshell, geometry = _reader(path, "ifcopenshell"), _reader(path, "ifcopenshell.geom")
     model = ifcopenshell.open(path)
-    settings = ifcopenshell.geom.settings()
+    settings = geometry.settings()
     settings.set("use-world-coords", True)
     solids: list[_Solid] = []
     # Openings and spaces are no bodies.
@@ -168,7 +170,7 @@ def _ifc(path: str) -> tuple[list[_Solid], float]:
     for product in bodies:
         name = product.Name or product.GlobalId
         try:
-            shape = ifcopenshell.geom.create_shape(settings, product)
+            shape = geometry.create_shape(settings, product)
         except RuntimeError:
             bare.append(name)
             continue
