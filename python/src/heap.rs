@@ -46,7 +46,7 @@ pub fn heaps(
     let protocol: Protocol = value(protocol.as_any(), |text| {
         serde_json::from_str(&text).map_err(|e| {
             InputError::at(JsonPath::root().key("protocol"), wrong(&e)).hint(
-                "the protocols are drain, funnel, cylinder, tilt, drum, hopper and shear, with the values grain, elongation, corners, grains, diameter, sizes, friction, wall_friction, rolling_arm, restitution, density, size, rate, pressure, drop, floor",
+                "the protocols are drain, funnel, cylinder, tilt, drum, hopper, shear and cell, with the values grain, elongation, corners, grains, diameter, sizes, friction, wall_friction, rolling_arm, restitution, density, size, rate, pressure, stiffness, drop, floor",
             )
         })
     })?;

@@ -8,6 +8,7 @@
 //! still bears, is asked for as a cross-check by a method that shares nothing with the dynamics but
 //! the places of the grains.
 
+mod cell;
 pub mod confirm;
 pub mod judge;
 pub mod seen;
@@ -163,7 +164,10 @@ pub fn grown(
         Some(own) => filled(protocol, own, seed)?,
         None => deposit(protocol, seed)?,
     };
-    let Deposit { scene, gates, lid, layers, lost } = deposit;
+    if deposit.cell.is_some() {
+        return cell::heap(protocol, seed, deposit, threads, watch);
+    }
+    let Deposit { scene, gates, lid, layers, lost, .. } = deposit;
     let assembly = assembly::resolve(&scene)?;
     let index: BTreeMap<&str, usize> =
         assembly.blocks.iter().enumerate().map(|(i, b)| (b.id.as_str(), i)).collect();
@@ -202,6 +206,7 @@ pub fn grown(
             let way = SHEARED * protocol.size()[0] * d;
             vec![Disturbance::Settle, Disturbance::Shear(gates, speed, way)]
         }
+        ProtocolKind::Cell => Vec::new(),
     };
     let finer =
         if protocol.kind == ProtocolKind::Shear { (1.0 + protocol.pressure).sqrt() } else { 1.0 };

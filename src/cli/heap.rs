@@ -255,7 +255,7 @@ fn protocol(args: &Repose) -> anyhow::Result<Protocol> {
         }
         let Some(place) = value.get_mut(key).filter(|_| key != "kind") else {
             bail!(
-                "{key}: not a value of a protocol; the values are grain, elongation, corners, grains, diameter, sizes, friction, wall_friction, rolling_arm, rolling_friction, restitution, density, size, rate, pressure, drop, floor"
+                "{key}: not a value of a protocol; the values are grain, elongation, corners, grains, diameter, sizes, friction, wall_friction, rolling_arm, rolling_friction, restitution, density, size, rate, pressure, stiffness, drop, floor"
             );
         };
         let number = place.is_number() && key != "rate";
@@ -265,7 +265,7 @@ fn protocol(args: &Repose) -> anyhow::Result<Protocol> {
         *place = serde_json::from_str(text).unwrap_or_else(|_| Value::from(text.as_str()));
     }
     let protocol: Protocol = serde_json::from_value(value).with_context(|| {
-        format!("`{name}` with these values is not a protocol; protocols are drain, funnel, cylinder, tilt, drum, hopper and shear, with grain=sphere, clump or hull")
+        format!("`{name}` with these values is not a protocol; protocols are drain, funnel, cylinder, tilt, drum, hopper, shear and cell, with grain=sphere, clump or hull")
     })?;
     // What is kept and reported is the box that was used.
     Ok(protocol.sized())

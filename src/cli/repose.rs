@@ -29,7 +29,8 @@ use voussoir::{
 };
 
 /// What --question repose takes in place of a scene.
-const PROTOCOLS: [&str; 7] = ["drain", "funnel", "cylinder", "tilt", "drum", "hopper", "shear"];
+const PROTOCOLS: [&str; 8] =
+    ["drain", "funnel", "cylinder", "tilt", "drum", "hopper", "shear", "cell"];
 
 pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
     if args.common.self_checking.is_some() {

@@ -49,7 +49,7 @@ pub struct ReposeFile {
     /// fit of its surface, which other seeds may leave.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub known_deg: Option<Mean>,
-    /// What drum, hopper and shear box show, over the seeds; none where any of them has a doubt.
+    /// What drum, hopper, shear box and cell show, over the seeds; none where any of them has a doubt.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub figures: Vec<Figure>,
     /// Heaps that came to rest.
@@ -91,6 +91,7 @@ impl Figure {
             // The ends of the box carry part of the shear, however long it is.
             "residual_friction" => ("residual friction at most", ""),
             "peak_friction" => ("peak friction at most", ""),
+            "internal_friction_over_published" => ("over the published", ""),
             other => (other, ""),
         };
         let spread = match self.known {
@@ -143,7 +144,7 @@ pub struct HeapResult {
     /// What statics says of the heap at rest, where it was asked.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub statics: Option<Confirmed>,
-    /// What a drum, a hopper or a shear box shows.
+    /// What a drum, a hopper, a shear box or a cell shows.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub seen: Option<Seen>,
     /// The static margin, where it was asked for.

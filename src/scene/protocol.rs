@@ -37,14 +37,17 @@ pub struct Protocol {
     /// Length and width of the box (drain, tilt, shear), twice the diameter of the cylinder or of the
     /// stream of the funnel and nothing, diameter and length of the drum, or diameters of the bin
     /// and of its orifice (hopper), in mean diameters. Where it is not given it follows the
-    /// number of grains: see [`Protocol::size`].
+    /// number of grains: see [`Protocol::size`]. A cell finds its own.
     pub size: Option<[f64; 2]>,
     /// Speed at which the cylinder is lifted or the box is sheared, √(g d), or rate at which the bed
-    /// is tilted or the drum turns, degrees per √(d/g). Where it is not given it follows the kind:
-    /// see [`Protocol::rate`].
+    /// is tilted or the drum turns, degrees per √(d/g), or inertial number d γ̇ √(ρ/P) at which a
+    /// cell is sheared. Where it is not given it follows the kind: see [`Protocol::rate`].
     pub rate: Option<f64>,
-    /// Pressure of the lid of the shear box, ρ g d.
+    /// Pressure of the lid of the shear box, or in a cell, ρ g d.
     pub pressure: f64,
+    /// Stiffness of the grains of a cell, κ = (E / (1 − ν²) P)^{2/3}: they overlap by 2 d / κ in the
+    /// mean (Agnolin & Roux 2007).
+    pub stiffness: f64,
     /// How far above the highest grain the layers of the funnel are let go, in mean diameters.
     pub drop: f64,
     /// What the grains lie on.
@@ -106,11 +109,14 @@ pub enum ProtocolKind {
     /// The upper half of a box is pushed over the lower one under a lid (direct shear): how much it
     /// resists, and how the grains rise.
     Shear,
+    /// A cell that repeats itself is filled, compressed from all sides and sheared at constant
+    /// pressure: internal friction, solid fraction and coordination of the steady flow.
+    Cell,
 }
 
 impl ProtocolKind {
     /// All of them.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Drain,
         Self::Funnel,
         Self::Cylinder,
@@ -118,11 +124,12 @@ impl ProtocolKind {
         Self::Drum,
         Self::Hopper,
         Self::Shear,
+        Self::Cell,
     ];
 
     /// Whether it leaves a heap behind that has a slope.
     pub fn leaves_a_slope(self) -> bool {
-        !matches!(self, Self::Drum | Self::Hopper | Self::Shear)
+        !matches!(self, Self::Drum | Self::Hopper | Self::Shear | Self::Cell)
     }
 }
 
@@ -144,6 +151,7 @@ impl Default for Protocol {
             size: None,
             rate: None,
             pressure: 10.0,
+            stiffness: 1000.0,
             drop: 3.0,
             floor: FloorKind::Rough,
         }
@@ -180,6 +188,7 @@ impl Protocol {
         self.rate.unwrap_or(match self.kind {
             ProtocolKind::Drum => 1.0,
             ProtocolKind::Shear => 0.05,
+            ProtocolKind::Cell => 0.01,
             _ => 0.1,
         })
     }
@@ -199,6 +208,7 @@ impl Protocol {
 
     /// The same with its size and rate written out.
     pub fn sized(&self) -> Self {
-        Self { size: Some(self.size()), rate: Some(self.rate()), ..self.clone() }
+        let size = if self.kind == ProtocolKind::Cell { self.size } else { Some(self.size()) };
+        Self { size, rate: Some(self.rate()), ..self.clone() }
     }
 }

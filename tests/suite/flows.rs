@@ -39,6 +39,9 @@ fn charts(protocol: &Protocol, heap: &Heap) -> Vec<chart::Chart> {
     let charts = tell::heaps(&file);
     let columns: Vec<Vec<[f64; 2]>> = match heap.seen.as_ref().expect("seen") {
         Seen::Drum { course, .. } | Seen::Hopper { course, .. } => vec![course.clone()],
+        Seen::Cell(flown) => {
+            [1, 2].map(|k| flown.course.iter().map(|c| [c[0], c[k]]).collect()).to_vec()
+        }
         Seen::Shear { course, .. } => {
             [1, 2].map(|k| course.iter().map(|c| [c[0], c[k]]).collect()).to_vec()
         }
@@ -350,6 +353,48 @@ fn a_shear_box_tells_friction() {
     let (smooth, rough) = (of(0.0), of(0.5));
     assert!((0.0..0.25).contains(&smooth), "{smooth}");
     assert!(rough > smooth + 0.1 && rough < 0.8, "{smooth} {rough}");
+}
+
+/// Friction of steady shear in a periodic cell beside what is published: rough without friction, where
+/// that is known best, and with it that of glass beads; the same on two threads, in other units and under
+/// another pressure.
+#[test]
+fn a_cell_tells_the_internal_friction_that_is_published() {
+    let cell = |friction: f64, rate: f64| Protocol {
+        kind: ProtocolKind::Cell,
+        grains: 250,
+        rate: Some(rate),
+        friction,
+        stiffness: 300.0,
+        ..Protocol::default()
+    };
+    let flown = |protocol: &Protocol, threads: usize| {
+        let growing = Growing { threads, ..Growing::default() };
+        let mut go_on = |_: &_| ControlFlow::Continue(());
+        let heap = repose::grown(protocol, 1, &growing, &mut go_on).unwrap();
+        charts(protocol, &heap);
+        match heap.seen.clone() {
+            Some(Seen::Cell(flown)) => flown,
+            other => panic!("{other:?}: {:?}", heap.refused),
+        }
+    };
+    for (friction, rate) in [(0.5, 0.1), (0.0, 0.01)] {
+        let protocol = cell(friction, rate);
+        let one = flown(&protocol, 1);
+        println!(
+            "{friction} {rate}: {one:?}",
+            one = {
+                let mut o = one.clone();
+                o.course.clear();
+                o
+            }
+        );
+        let small = Protocol { diameter: protocol.diameter * 0.125, ..protocol.clone() };
+        assert_eq!(flown(&protocol, 2), one, "threads");
+        let other = flown(&small, 1);
+        let apart = (other.friction.mean - one.friction.mean).abs();
+        assert!(apart < 4.0 * one.friction.error.max(0.01), "{apart}: {:?}", other.friction);
+    }
 }
 
 /// The lid of a long shear box is one clump of hundreds of spheres.

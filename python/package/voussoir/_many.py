@@ -393,7 +393,7 @@ class Heaps:
 
     @property
     def figures(self) -> dict[str, float]:
-        """Means over the seeds of what a drum, a hopper or a shear box shows, by name."""
+        """Means over the seeds of what a drum, a hopper, a shear box or a cell shows, by name."""
         return {figure["name"]: figure["mean"] for figure in self._data.get("figures", [])}
 
     @property
@@ -440,7 +440,7 @@ def _heaps_restored(state: str) -> Heaps:
 
 
 def heaps(
-    protocol: Literal["drain", "funnel", "cylinder", "tilt", "drum", "hopper", "shear"],
+    protocol: Literal["drain", "funnel", "cylinder", "tilt", "drum", "hopper", "shear", "cell"],
     *,
     seeds: int | Sequence[int] = 1,
     skip_margin: bool = False,
@@ -449,12 +449,12 @@ def heaps(
     progress: Progress = False,
     **values: Any,
 ) -> Heaps:
-    """Make heaps of grains and measure their angle of repose, or what a drum, a hopper or a shear
-    box shows, as ``voussoir repose PROTOCOL --question repose`` does.
+    """Make heaps of grains and measure their angle of repose, or what a drum, a hopper, a
+    shear box or a cell shows, as ``voussoir repose PROTOCOL --question repose`` does.
 
     Parameters
     ----------
-    protocol : {"drain", "funnel", "cylinder", "tilt", "drum", "hopper", "shear"}
+    protocol : {"drain", "funnel", "cylinder", "tilt", "drum", "hopper", "shear", "cell"}
         How the grains flow.
     seeds : int or sequence of int
         This many seeds from 0 on, or these.
@@ -469,7 +469,7 @@ def heaps(
     **values
         ``grains=400``, ``grain="clump"``, ``elongation``, ``corners``, ``diameter`` (m), ``sizes``,
         ``friction``, ``wall_friction``, ``rolling_arm``, ``restitution``, ``density``, ``size``,
-        ``rate``, ``pressure``, ``drop``, ``floor``. A grading curve is
+        ``rate``, ``pressure``, ``stiffness``, ``drop``, ``floor``. A grading curve is
         ``sizes=[[0.002, 0], [0.004, 0.4], [0.008, 1]]`` with ``diameter`` the unit of lengths.
 
     Returns

@@ -1,5 +1,5 @@
 //! What grains show while they flow: the dynamic angle of a drum, the discharge of a hopper, the
-//! resistance of a shear box.
+//! resistance of a shear box, the steady flow in a cell.
 //!
 //! * W. A. Beverloo, H. A. Leniger, J. van de Velde, *The flow of granular solids through orifices*,
 //!   Chemical Engineering Science 15 (1961) 260: `W = 0.58 ρ √g (D − 1.4 d)^2.5`, ρ the density of
@@ -19,6 +19,10 @@ const DRUM_STARTS: f64 = 90.0;
 /// A shear box is pushed by this share of its length. More: less than four fifths of the halves lie
 /// over each other. Less: the residual resistance is not reached.
 pub(super) const SHEARED: f64 = 0.2;
+
+/// Fewest steps in the shortest period of a contact. Fewer: damping is not followed, grains tremble
+/// (docs/lab/spheres.md). More: runs of stiff grains that are good enough are refused.
+const FOLLOWED: f64 = 20.0;
 
 /// Coefficient of Beverloo's correlation, and diameters by which the orifice is smaller for grains.
 const BEVERLOO: [f64; 2] = [0.58, 1.4];
@@ -90,6 +94,57 @@ pub enum Seen {
         /// By way, m: ratio of shear to normal force, and rise of the lid, m.
         course: Vec<[f64; 3]>,
     },
+    /// A cell that is sheared at constant pressure.
+    Cell(Box<Flown>),
+}
+
+/// Grains before a cell is sheared.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+pub struct Compressed {
+    /// Share of the volume that grains fill.
+    pub solid_fraction: f64,
+    /// Contacts a grain.
+    pub coordination: f64,
+    /// The same among grains that bear something.
+    pub backbone: f64,
+}
+
+/// The flow in a cell.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+pub struct Flown {
+    /// At rest under the pressure from all sides.
+    pub compressed: Compressed,
+    /// Inertial number d γ̇ √(ρ/P).
+    pub inertial_number: f64,
+    /// Ratio of shear to normal stress of the steady flow.
+    pub friction: Steady,
+    /// Share of the volume that grains fill in it.
+    pub solid_fraction: Steady,
+    /// Contacts a grain in it.
+    pub coordination: Steady,
+    /// Greatest ratio of the stresses on the way, over a fiftieth of the strain.
+    pub peak: f64,
+    /// What has been published beside it.
+    pub published: Published,
+    /// Restitution of the contacts: the least that dashpots bring about where less was asked for.
+    pub restitution: f64,
+    /// Greatest overlap of two grains, d.
+    pub overlap: f64,
+    /// Steps in the shortest period of a contact.
+    pub steps: f64,
+    /// Normal stress across the shear planes, Pa.
+    pub normal_stress: f64,
+    /// By shear strain: ratio of shear to normal stress, and solid fraction.
+    pub course: Vec<[f64; 3]>,
+}
+
+/// A ratio of shear to normal stress that was published.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+pub struct Published {
+    /// The ratio.
+    pub friction: f64,
+    /// Of what, and by whom.
+    pub source: String,
 }
 
 impl Seen {
@@ -110,6 +165,15 @@ impl Seen {
                 ("residual_friction", residual.mean),
                 ("peak_friction", *peak),
                 ("dilatancy_deg", *dilatancy_deg),
+            ],
+            Self::Cell(flown) => vec![
+                ("internal_friction", flown.friction.mean),
+                ("solid_fraction", flown.solid_fraction.mean),
+                ("coordination", flown.coordination.mean),
+                (
+                    "internal_friction_over_published",
+                    flown.friction.mean / flown.published.friction,
+                ),
             ],
         }
     }
@@ -133,6 +197,16 @@ impl Seen {
             Self::Hopper { rate, .. } => unknown("the discharge", rate).into_iter().collect(),
             Self::Shear { residual, .. } => {
                 unknown("the residual resistance", residual).into_iter().collect()
+            }
+            Self::Cell(flown) => {
+                let coarse = (flown.steps < FOLLOWED).then(|| {
+                    format!(
+                        "contacts are followed in {:.0} steps of their shortest period, at least {FOLLOWED} are accepted: use stiffer grains or a slower rate",
+                        flown.steps
+                    )
+                });
+                let known = unknown("the internal friction", &flown.friction);
+                known.into_iter().chain(coarse).collect()
             }
         }
     }
@@ -355,7 +429,7 @@ impl<'a> Recorder<'a> {
 }
 
 /// Mean and standard error of a course by its stretches.
-fn steady(values: &[f64]) -> Option<Steady> {
+pub(super) fn steady(values: &[f64]) -> Option<Steady> {
     let n = values.len() / STRETCHES;
     if n == 0 {
         return None;

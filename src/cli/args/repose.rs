@@ -25,17 +25,17 @@ pub struct Repose {
     /// The defaults are: grain=sphere (or clump, hull), elongation=1.5 (of clumps and hulls),
     /// corners=16 (of hulls), grains=2000, diameter=0.01 (of spheres of the same volume), sizes=0.2
     /// (or a file: diameter in m and share finer), friction=0.5, wall_friction=0, rolling_arm=0 (in
-    /// d; rolling_friction in R), restitution=0, density=2500, rate=0.1 (drum 1, shear 0.05),
-    /// pressure=10 (of the lid of shear, ρ g d), drop=3 (of the funnel, in d above the heap),
-    /// floor=rough (or flat), size=[16,10] (in d; if not given, it follows the cube root of the
-    /// number of grains).
+    /// d; rolling_friction in R), restitution=0, density=2500, rate=0.1 (drum 1, shear 0.05; of
+    /// cell the inertial number, 0.01), pressure=10 (of the lid of shear and in cell, ρ g d),
+    /// stiffness=1000 (of cell), drop=3 (of the funnel, in d above the heap), floor=rough (or
+    /// flat), size=[16,10] (in d; if not given, it follows the cube root of the number of grains).
     #[arg(value_name = "KEY=VALUE", value_parser = assignment)]
     pub set: Vec<(String, String)>,
     /// `stability`: the greatest tilt of a packing; `repose`: the slope after a flow.
     ///
     /// For `stability`, SCENE is the packing as it lies. For `repose`, the slope is the one that a
     /// heap leaves behind after it flowed, and SCENE is the protocol: drain, funnel, cylinder,
-    /// tilt, drum, hopper or shear.
+    /// tilt, drum, hopper, shear or cell.
     #[arg(long, value_enum, value_name = "QUESTION", default_value_t = Asked::Stability, hide_possible_values = true)]
     pub question: Asked,
     /// Number of heaps, each with its own seed (--question repose).

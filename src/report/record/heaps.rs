@@ -10,7 +10,7 @@ use serde_json::Value;
 
 /// Of the values of a protocol.
 const UNITS: &str = "Diameter in m, density in kg/m³; size and rolling arm in mean diameters; rate in \
-                     √(g d), for rotating parts in degrees per √(d/g); pressure in ρ g d.";
+                     √(g d), for rotating parts in degrees per √(d/g), of a cell as inertial number; pressure in ρ g d.";
 
 impl Record {
     /// The record of heaps: how they were made, what came of each, and the drawing of the first.
@@ -48,7 +48,7 @@ fn question(kind: ProtocolKind) -> &'static str {
     match kind {
         ProtocolKind::Drum => "At what slope do grains flow in a rotating drum?",
         ProtocolKind::Hopper => "How fast do grains discharge through an opening?",
-        ProtocolKind::Shear => "How much do grains resist shear?",
+        ProtocolKind::Shear | ProtocolKind::Cell => "How much do grains resist shear?",
         _ => "At what slope do grains come to rest?",
     }
 }

@@ -136,6 +136,7 @@ fn courses(seen: &Seen) -> Vec<Course> {
             note: "The discharge rate is the slope between 0.1 and 0.5 of the mass filled in.",
             points: course.clone(),
         }],
+        Seen::Cell(flown) => of_cell(&flown.course),
         Seen::Shear { course, .. } => vec![
             Course {
                 title: "Resistance to shear",
@@ -151,6 +152,23 @@ fn courses(seen: &Seen) -> Vec<Course> {
             },
         ],
     }
+}
+
+fn of_cell(course: &[[f64; 3]]) -> Vec<Course> {
+    vec![
+        Course {
+            title: "Resistance to shear",
+            axes: ["shear strain", "shear over normal stress"],
+            note: "Means are over all but the first strain of one.",
+            points: course.iter().map(|c| [c[0], c[1]]).collect(),
+        },
+        Course {
+            title: "Solid fraction",
+            axes: ["shear strain", "solid fraction"],
+            note: "Share of the volume that grains fill.",
+            points: course.iter().map(|c| [c[0], c[2]]).collect(),
+        },
+    ]
 }
 
 /// The courses of what flows, a line for every seed.

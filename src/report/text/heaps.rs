@@ -2,9 +2,9 @@
 
 use super::{Layout, Page, TextOptions, page::Role};
 use crate::heaps::{HeapResult, ReposeFile};
-use analysis::repose::seen::{Seen, Steady};
+use analysis::repose::seen::{Compressed, Flown, Seen, Steady};
 use base::number::{count, seconds, short};
-use scene::ProtocolKind;
+use scene::{Protocol, ProtocolKind};
 use sweep::Mean;
 
 /// The answer about heaps as a page.
@@ -46,6 +46,9 @@ pub fn heaps(file: &ReposeFile, options: TextOptions, layout: Layout) -> Page {
         ProtocolKind::Shear => {
             "shear over normal force on the plane between the halves, and how the lid rises"
         }
+        ProtocolKind::Cell => {
+            "shear over normal stress in a periodic cell at constant pressure, from a shear strain of 1 to one of 5"
+        }
         _ => {
             "the slope that flowing grains left behind, a straight line through the highest grains"
         }
@@ -65,8 +68,7 @@ pub fn heaps(file: &ReposeFile, options: TextOptions, layout: Layout) -> Page {
         page.row("spread", [format!("{low:.1}° to {high:.1}° over the seeds")]);
     }
     page.row("margin", file.heaps.iter().filter_map(margin));
-    let [length, width] = p.size().map(short);
-    page.row("size", [format!("{length} × {width} d, d = {} m", short(p.diameter))]);
+    page.row("size", [size(p)]);
     page.row(
         "note",
         file.heaps
@@ -89,6 +91,17 @@ pub fn heaps(file: &ReposeFile, options: TextOptions, layout: Layout) -> Page {
         }),
     );
     page
+}
+
+/// How large it is.
+fn size(p: &Protocol) -> String {
+    let d = format!("d = {} m", short(p.diameter));
+    if p.kind == ProtocolKind::Cell {
+        let pressure = short(p.pressure);
+        return format!("{d}, pressure {pressure} ρ g d, stiffness κ = {}", short(p.stiffness));
+    }
+    let [length, width] = p.size().map(short);
+    format!("{length} × {width} d, {d}")
 }
 
 /// How well the angle is known.
@@ -134,7 +147,12 @@ fn run(h: &HeapResult) -> Vec<String> {
                 short(*normal_stress)
             ),
         ],
+        Some(Seen::Cell(flown)) => flow(flown),
     };
+    if matches!(h.seen, Some(Seen::Cell(_))) {
+        let last = format!("{:.0} √(d/g), {}", h.time, seconds(h.seconds));
+        return told(h.seed, what.into_iter().chain([last]));
+    }
     let last = format!(
         "{:.0} √(d/g); {} grains stayed, {} fell out; {}",
         h.time,
@@ -142,11 +160,45 @@ fn run(h: &HeapResult) -> Vec<String> {
         h.discarded,
         seconds(h.seconds)
     );
-    let lines = what.into_iter().chain([last]);
-    lines
-        .enumerate()
-        .map(|(k, t)| if k == 0 { format!("seed {}: {t}", h.seed) } else { format!("  {t}") })
-        .collect()
+    told(h.seed, what.into_iter().chain([last]))
+}
+
+/// The flow in a cell.
+fn flow(f: &Flown) -> Vec<String> {
+    let with = |s: &Steady| format!("{} ± {}", short(s.mean), short(s.error));
+    let Compressed { solid_fraction, coordination, backbone } = f.compressed;
+    vec![
+        format!(
+            "internal friction {} ({:.2}°), peak {}; inertial number {}",
+            with(&f.friction),
+            f.friction.mean.atan().to_degrees(),
+            short(f.peak),
+            short(f.inertial_number)
+        ),
+        format!("published {}: {}", short(f.published.friction), f.published.source),
+        format!(
+            "solid fraction {}, {} contacts a grain",
+            with(&f.solid_fraction),
+            with(&f.coordination)
+        ),
+        format!(
+            "before, compressed: {}, {} contacts a grain, {} among those that bear",
+            short(solid_fraction),
+            short(coordination),
+            short(backbone)
+        ),
+        format!(
+            "restitution {}; overlaps of at most {} d, {:.1} steps in the shortest period of a contact",
+            short(f.restitution),
+            short(f.overlap),
+            f.steps
+        ),
+    ]
+}
+
+fn told(seed: u64, lines: impl Iterator<Item = String>) -> Vec<String> {
+    let line = |(k, t)| if k == 0 { format!("seed {seed}: {t}") } else { format!("  {t}") };
+    lines.enumerate().map(line).collect()
 }
 
 fn row(h: &HeapResult) -> String {

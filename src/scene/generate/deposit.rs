@@ -27,12 +27,20 @@ pub struct Deposit {
     pub layers: Vec<Vec<String>>,
     /// Grains below this height have fallen out, m.
     pub lost: f64,
+    /// The edges of a cell that repeats itself, m.
+    pub cell: Option<[f64; 3]>,
 }
 
 /// Most grains of one heap: more would take days.
 const MOST: usize = 200_000;
 /// Distance of grains in the loose layers over the greatest diameter.
 const LOOSE: f64 = 1.05;
+/// Fewest grains of a cell. Fewer: it is narrower than three grains, and one meets another and its
+/// image.
+const FEWEST: usize = 200;
+/// Least and greatest stiffness of a cell. Less: grains overlap by a tenth. More: steps are too short
+/// for any answer.
+const STIFFNESS: (f64, f64) = (20.0, 1e6);
 /// Corners that a hull may have. More: contacts of hulls cost time.
 const CORNERS: std::ops::RangeInclusive<usize> = 6..=100;
 /// The stream of random numbers for shapes, so that places and sizes of grains do not depend on
@@ -55,6 +63,11 @@ pub fn deposit(protocol: &Protocol, seed: u64) -> Result<Deposit, InputError> {
 /// As [`deposit`]; a grain lies outside.
 pub fn filled(protocol: &Protocol, own: &[BlockSpec], seed: u64) -> Result<Deposit, InputError> {
     check(protocol)?;
+    if protocol.kind == ProtocolKind::Cell {
+        let text = "a cell takes no grains of one's own: it repeats itself, they do not";
+        let hint = "remove --start, or shear them in a box: protocol shear";
+        return Err(InputError::at(Default::default(), text).hint(hint));
+    }
     build(protocol, Some(own), seed)
 }
 
@@ -76,9 +89,13 @@ fn check(p: &Protocol) -> Result<(), InputError> {
     };
     positive("density", p.density, "kg/m³")?;
     positive("rate", p.rate(), "√(g d), or degrees per √(d/g) of a drum or a bed that is tilted")?;
-    if p.kind == ProtocolKind::Shear {
-        let hint = "the lid of a shear box presses on the grains, in ρ g d; 10 is the default";
+    if matches!(p.kind, ProtocolKind::Shear | ProtocolKind::Cell) {
+        let hint =
+            "what presses on the grains of a shear box or a cell, in ρ g d; 10 is the default";
         positive("pressure", p.pressure, hint)?;
+    }
+    if p.kind == ProtocolKind::Cell {
+        cell(p, &place)?;
     }
     let between = |field: &str, value: f64, most: f64| {
         let hint = "see `voussoir repose --help`";
@@ -133,6 +150,32 @@ fn check(p: &Protocol) -> Result<(), InputError> {
     Ok(())
 }
 
+/// Refuses what no cell takes.
+fn cell(p: &Protocol, place: &TemplatePath) -> Result<(), InputError> {
+    if p.grain != GrainKind::Sphere {
+        let text = format!("must be sphere in a cell, got {}", p.grain.plural());
+        return Err(place.error("grain", text, "only spheres are sheared in periodic cells"));
+    }
+    if p.grains < FEWEST {
+        let text = format!("must be at least {FEWEST} in a cell, got {}", p.grains);
+        return Err(place.error("grains", text, "with fewer, grains meet their own images"));
+    }
+    if p.size.is_some() {
+        let hint = "remove size=…: the edges follow from the pressure";
+        return Err(place.error("size", "a cell finds its own size", hint));
+    }
+    if !(STIFFNESS.0..=STIFFNESS.1).contains(&p.stiffness) {
+        let (low, high) = STIFFNESS;
+        let text = format!("must be from {low} to {high}, got {}", p.stiffness);
+        return Err(place.error(
+            "stiffness",
+            text,
+            "(E / ((1 − ν²) P))^(2/3); 1000 is the default",
+        ));
+    }
+    Ok(())
+}
+
 fn build(p: &Protocol, own: Option<&[BlockSpec]>, seed: u64) -> Result<Deposit, InputError> {
     let random = &mut Random(Pcg64::seed_from_u64(seed));
     let vessel = Vessel::new(p, random);
@@ -173,7 +216,16 @@ fn build(p: &Protocol, own: Option<&[BlockSpec]>, seed: u64) -> Result<Deposit, 
         normal_stiffness: None,
         shear_stiffness: None,
     });
-    Ok(Deposit { scene, gates, lid, layers, lost: vessel.lost * p.diameter })
+    let cell = (p.kind == ProtocolKind::Cell).then(|| {
+        let side = vessel.cell[1];
+        [side, side, layers.len() as f64 * pitch(p, 1.0)].map(|edge| edge * p.diameter)
+    });
+    Ok(Deposit { scene, gates, lid, layers, lost: vessel.lost * p.diameter, cell })
+}
+
+/// How far apart grains of this reach lie in loose layers, d.
+fn pitch(p: &Protocol, reach: f64) -> f64 {
+    LOOSE * p.sizes.greatest(p.diameter) * reach
 }
 
 /// Loose layers of grains, and the height that they need, d.
@@ -188,7 +240,7 @@ fn loose(
     let mut forms = Random(Pcg64::new(seed.into(), SHAPES));
     let grains: Vec<Grain> = (0..p.grains).map(|_| Grain::new(p, &mut forms)).collect();
     let reach = grains.iter().map(|g| g.reach).fold(1.0, f64::max);
-    let pitch = LOOSE * p.sizes.greatest(d) * reach;
+    let pitch = pitch(p, reach);
     if p.kind == ProtocolKind::Funnel && p.drop < pitch {
         let text = format!("must be at least {}, got {}", short(pitch), p.drop);
         let hint =

@@ -59,10 +59,15 @@ impl Vessel {
                 ([-r, r, -w, w], [-over, PI * length + over, -w, w])
             }
             ProtocolKind::Hopper => ([-2.0 * r, 2.0 * r, -2.0 * r, 2.0 * r], [0.0; 4]),
+            ProtocolKind::Cell => {
+                // No narrower than its rows, by rounding.
+                let side = (p.grains as f64).cbrt().ceil() * super::pitch(p, 1.0) * (1.0 + 1e-9);
+                ([0.0, side, 0.0, side], [0.0, side, 0.0, side])
+            }
         };
         let mut below = Vec::new();
         let spots = match (p.kind, p.floor) {
-            (ProtocolKind::Hopper, _) | (_, FloorKind::Flat) => Vec::new(),
+            (ProtocolKind::Hopper | ProtocolKind::Cell, _) | (_, FloorKind::Flat) => Vec::new(),
             (_, FloorKind::Rough) => rough(floor, APART, random),
         };
         match p.kind {
@@ -76,7 +81,8 @@ impl Vessel {
             }
             _ => {
                 // It ends before the outermost fixed grains do: over the edge nothing lies on it.
-                let end = if p.kind == ProtocolKind::Shear { 0.0 } else { 0.5 };
+                let closed = matches!(p.kind, ProtocolKind::Shear | ProtocolKind::Cell);
+                let end = if closed { 0.0 } else { 0.5 };
                 let low = [floor[0], floor[2], -0.5 - WALL];
                 let slab = wall(d, "floor".into(), low, [floor[1] - end, floor[3], -0.5]);
                 below.push(BlockSpec { material: Some("grain".into()), ..slab });
@@ -89,6 +95,7 @@ impl Vessel {
         }
         let (base, ceiling, lost) = match p.kind {
             ProtocolKind::Drum => (0.5 - length / 2.0, length / 2.0 - 0.5, -length),
+            ProtocolKind::Cell => (0.0, f64::INFINITY, -BELOW),
             ProtocolKind::Hopper => (0.0, f64::INFINITY, -BELOW),
             ProtocolKind::Shear => (0.5, f64::INFINITY, -2.0 * BELOW - WALL),
             _ => (0.5, f64::INFINITY, -BELOW),
@@ -107,7 +114,7 @@ impl Vessel {
             ProtocolKind::Drum => x.hypot(z) <= x1 - 0.5 - room && (y0..=y1).contains(&y),
             // Beyond the edge of a drain lies nothing, but grains may hang over it.
             ProtocolKind::Drain => (x0..=x1 + 0.5).contains(&x) && (y0..=y1).contains(&y),
-            ProtocolKind::Tilt | ProtocolKind::Shear => {
+            ProtocolKind::Tilt | ProtocolKind::Shear | ProtocolKind::Cell => {
                 (x0..=x1).contains(&x) && (y0..=y1).contains(&y)
             }
         };
@@ -119,7 +126,7 @@ impl Vessel {
         let d = p.diameter;
         let [x0, x1, y0, y1] = self.cell.map(|c| c * d);
         match self.kind {
-            ProtocolKind::Drain | ProtocolKind::Tilt | ProtocolKind::Shear => {
+            ProtocolKind::Drain | ProtocolKind::Tilt | ProtocolKind::Shear | ProtocolKind::Cell => {
                 format!("the box (x from {x0} to {x1}, y from {y0} to {y1} m, z > 0)")
             }
             ProtocolKind::Drum => format!("the drum (radius {x1} m, y from {y0} to {y1} m)"),
@@ -171,7 +178,7 @@ impl Vessel {
                 walls = ring(d, "cylinder", SIDES, self.cell[1], [0.6, top]);
                 gates = walls.iter().map(|b| b.id.clone()).collect();
             }
-            ProtocolKind::Funnel => {}
+            ProtocolKind::Funnel | ProtocolKind::Cell => {}
             ProtocolKind::Hopper => {
                 walls = ring(d, "bin", ROUND, length / 2.0, [-1.0, top]);
                 walls.push(wall(d, "plug".into(), [-h, -h, -1.0], [h, h, 0.0]));
