@@ -25,6 +25,7 @@ use base::{
     error::{Finding, FindingCode, InputError},
     tolerance::GRAIN_GAP,
 };
+use cell::Sheared;
 use confirm::Confirmed;
 use dynamics::granular::{Course, Disturbance, Flow, Moment, Poses, flow};
 use model::{assembly, interface::prepare};
@@ -164,13 +165,33 @@ pub fn grown(
         Some(own) => filled(protocol, own, seed)?,
         None => deposit(protocol, seed)?,
     };
-    if deposit.cell.is_some() {
-        return cell::heap(protocol, seed, deposit, threads, watch);
-    }
-    let Deposit { scene, gates, lid, layers, lost, .. } = deposit;
+    let Deposit { scene, gates, lid, layers, lost, cell } = deposit;
     let assembly = assembly::resolve(&scene)?;
     let index: BTreeMap<&str, usize> =
         assembly.blocks.iter().enumerate().map(|(i, b)| (b.id.as_str(), i)).collect();
+    if let Some(edges) = cell {
+        let begin = Instant::now();
+        let Sheared { flown, poses, flow } =
+            cell::sheared(protocol, &assembly, edges, threads, watch)?;
+        let mut heap = Heap {
+            seed,
+            scene: settled(&scene, &assembly, &poses, &index, protocol.diameter),
+            rested: flown.is_some(),
+            energy: flow.energy,
+            time: flow.time,
+            seconds: begin.elapsed().as_secs_f64(),
+            grains: [assembly.free().count(), 0],
+            slope: None,
+            parts: Vec::new(),
+            avalanche_deg: None,
+            seen: flown.map(|flown| Seen::Cell(Box::new(flown))),
+            statics: None,
+            refused: None,
+            findings: Vec::new(),
+        };
+        heap.measure(protocol)?;
+        return Ok(heap);
+    }
     let find = |ids: &[String]| {
         ids.iter().filter_map(|id| index.get(id.as_str()).copied()).collect::<Vec<_>>()
     };

@@ -18,26 +18,21 @@
 //! E 76 (2007) 061302; F. da Cruz, S. Emam, M. Prochnow, J.-N. Roux, F. Chevoir, *Rheophysics of dense
 //! granular materials*, Physical Review E 72 (2005) 021309.
 
-use super::{
-    Heap,
-    seen::{Compressed, Flown, Published, Seen, steady},
-    settled,
-};
+use super::seen::{Compressed, Flown, Published, steady};
 use base::{error::InputError, tolerance::GRAIN_REST_ENERGY};
 use dynamics::granular::{Flow, Poses};
-use model::assembly::{self, Assembly, Solid};
+use model::assembly::{Assembly, Solid};
 use nalgebra::{UnitQuaternion, Vector3};
-use scene::{Protocol, generate::Deposit};
-use solve::clock::Instant;
+use scene::Protocol;
 use spheres::{Cell, Drive, Grain, Law, Material, World, law::Friction, world::Setup};
-use std::{collections::BTreeMap, f64::consts::PI, ops::ControlFlow};
+use std::{f64::consts::PI, ops::ControlFlow};
 
 /// Poisson's ratio of the grains.
 const POISSON: f64 = 0.3;
 /// Steps in the period of two grains pressed together by P d². Fewer: the dashpots of a grain that several
 /// others touch overshoot, grains tremble, and what trembles slips: internal friction is too low, the more so
 /// the slower the shear (docs/lab/spheres.md). More: time.
-const STEPS: f64 = 60.0;
+const STEPS: f64 = 40.0;
 /// Compression ends when all stresses are within this of P, relative. Less: waves decide. More: the
 /// cell has not come to its pressure.
 const PRESSED: f64 = 0.01;
@@ -54,43 +49,32 @@ const GLASS: [f64; 3] = [0.382, 0.643, 0.279];
 /// Angle of grains without friction, degrees, and how well it is known (Peyneau & Roux 2008).
 const FRICTIONLESS: [f64; 2] = [5.76, 0.22];
 
-/// Runs the protocol.
-pub(super) fn heap(
+/// What became of a cell.
+pub(super) struct Sheared {
+    /// Nothing where it was stopped, or never came to rest.
+    pub flown: Option<Flown>,
+    /// Where the grains are.
+    pub poses: Poses,
+    /// As far as it came.
+    pub flow: Flow,
+}
+
+/// Compresses and shears a cell of these edges, m.
+pub(super) fn sheared(
     protocol: &Protocol,
-    seed: u64,
-    deposit: Deposit,
+    assembly: &Assembly,
+    edges: [f64; 3],
     threads: usize,
     watch: &mut dyn FnMut(&Flow) -> ControlFlow<()>,
-) -> Result<Heap, InputError> {
-    let begin = Instant::now();
-    let assembly = assembly::resolve(&deposit.scene)?;
-    let mut run = Run::new(protocol, &assembly, deposit.cell.unwrap_or_default(), threads)?;
-    let seen = run.observe(watch)?;
-    let index: BTreeMap<&str, usize> =
-        assembly.blocks.iter().enumerate().map(|(i, b)| (b.id.as_str(), i)).collect();
-    let mut poses: Poses =
-        assembly.blocks.iter().map(|b| Some((b.centroid, UnitQuaternion::identity()))).collect();
+) -> Result<Sheared, InputError> {
+    let mut run = Run::new(protocol, assembly, edges, threads)?;
+    let flown = run.observe(watch)?;
+    let still = UnitQuaternion::identity();
+    let mut poses: Poses = assembly.blocks.iter().map(|b| Some((b.centroid, still))).collect();
     for (i, place) in assembly.free().zip(run.world.places()) {
-        poses[i] = Some((*place, UnitQuaternion::identity()));
+        poses[i] = Some((*place, still));
     }
-    let mut heap = Heap {
-        seed,
-        scene: settled(&deposit.scene, &assembly, &poses, &index, protocol.diameter),
-        rested: seen.is_some(),
-        energy: run.flow(1).energy,
-        time: run.flow(1).time,
-        seconds: begin.elapsed().as_secs_f64(),
-        grains: [run.world.places().len(), 0],
-        slope: None,
-        parts: Vec::new(),
-        avalanche_deg: None,
-        seen: seen.map(|flown| Seen::Cell(Box::new(flown))),
-        statics: None,
-        refused: None,
-        findings: Vec::new(),
-    };
-    heap.measure(protocol)?;
-    Ok(heap)
+    Ok(Sheared { flown, poses, flow: run.flow(1) })
 }
 
 /// A cell on its way.

@@ -11,8 +11,8 @@ use crate::{
 };
 use base::{error::InputError, number::short};
 use rand_pcg::{Pcg64, rand_core::SeedableRng};
-use vessel::Vessel;
 pub use vessel::bed_split;
+use vessel::{Vessel, pitch};
 
 /// Grains and what holds them, before anything moves.
 #[derive(Clone, Debug)]
@@ -33,8 +33,6 @@ pub struct Deposit {
 
 /// Most grains of one heap: more would take days.
 const MOST: usize = 200_000;
-/// Distance of grains in the loose layers over the greatest diameter.
-const LOOSE: f64 = 1.05;
 /// Fewest grains of a cell. Fewer: it is narrower than three grains, and one meets another and its
 /// image.
 const FEWEST: usize = 200;
@@ -221,11 +219,6 @@ fn build(p: &Protocol, own: Option<&[BlockSpec]>, seed: u64) -> Result<Deposit, 
         [side, side, layers.len() as f64 * pitch(p, 1.0)].map(|edge| edge * p.diameter)
     });
     Ok(Deposit { scene, gates, lid, layers, lost: vessel.lost * p.diameter, cell })
-}
-
-/// How far apart grains of this reach lie in loose layers, d.
-fn pitch(p: &Protocol, reach: f64) -> f64 {
-    LOOSE * p.sizes.greatest(p.diameter) * reach
 }
 
 /// Loose layers of grains, and the height that they need, d.

@@ -6,6 +6,8 @@ use crate::{Ball, BlockSpec, FloorKind, Protocol, ProtocolKind, Rotation, Shape}
 use base::error::InputError;
 use std::f64::consts::{PI, TAU};
 
+/// Distance of grains in the loose layers over the greatest diameter.
+const LOOSE: f64 = 1.05;
 /// Tries to place a fixed grain on the floor, per d² of floor. Fewer: holes in which a grain lies
 /// on the flat ground and rolls at once.
 const TRIES: f64 = 80.0;
@@ -39,6 +41,11 @@ pub(super) struct Vessel {
     pub below: Vec<BlockSpec>,
 }
 
+/// How far apart grains of this reach lie in loose layers, d.
+pub(super) fn pitch(p: &Protocol, reach: f64) -> f64 {
+    LOOSE * p.sizes.greatest(p.diameter) * reach
+}
+
 impl Vessel {
     pub fn new(p: &Protocol, random: &mut Random) -> Self {
         let [length, width] = p.size();
@@ -61,7 +68,7 @@ impl Vessel {
             ProtocolKind::Hopper => ([-2.0 * r, 2.0 * r, -2.0 * r, 2.0 * r], [0.0; 4]),
             ProtocolKind::Cell => {
                 // No narrower than its rows, by rounding.
-                let side = (p.grains as f64).cbrt().ceil() * super::pitch(p, 1.0) * (1.0 + 1e-9);
+                let side = (p.grains as f64).cbrt().ceil() * pitch(p, 1.0) * (1.0 + 1e-9);
                 ([0.0, side, 0.0, side], [0.0, side, 0.0, side])
             }
         };
