@@ -107,7 +107,10 @@ fn meshes_become_scenes() {
     expect(USAGE, voussoir(&["import", &obj, "--support", "nobody"]));
     expect(USAGE, voussoir(&["import", &desk.at("none.obj")]));
     expect(USAGE, voussoir(&["import", &obj, "--up", "w"]));
-    expect(USAGE, voussoir(&["import"]));
+    let formats = expect(YES, voussoir(&["import"]));
+    let formats = String::from_utf8_lossy(&formats.stdout).into_owned();
+    assert!(formats.contains("voussoir import arch.dxf"), "{formats}");
+    expect(USAGE, voussoir(&["import", "-o", &scene]));
 }
 
 #[test]
