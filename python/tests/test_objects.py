@@ -383,6 +383,8 @@ def test_files_in_other_units_and_axes(tmp_path: Path) -> None:
     scene = voussoir.import_file(
         file, scale=0.001, up="y", support_below=-0.4, friction=0.6, density=1000
     )
+    with pytest.warns(UserWarning, match="no friction"):
+        voussoir.import_file(file, scale=0.001, up="y", support_below=-0.4, density=1000)
     answer = voussoir.assess(scene)
     assert answer.verdict and answer.blocks.mass.tolist() == pytest.approx([1000, 1000])
     assert answer.blocks.centroid[1].tolist() == pytest.approx([0, 0, 1], abs=1e-12)

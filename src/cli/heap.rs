@@ -12,7 +12,7 @@ use std::ops::ControlFlow;
 use voussoir::{
     analysis::{
         Control, Law, Tilted,
-        repose::{Growing, Heap, Margin, grown, margin, profile},
+        repose::{Growing, Heap, Margin, grown, judge, margin, profile},
     },
     deadline::Deadline,
     dynamics::granular::Flow,
@@ -56,6 +56,9 @@ enum Piece {
 pub fn run(args: &Repose, terminal: &Terminal) -> anyhow::Result<Exit> {
     let protocol = protocol(args)?;
     let own = args.start.as_deref().map(start).transpose()?;
+    if let Some(why) = judge::foretold(&protocol) {
+        terminal::say(&format!("note: {why}"));
+    }
     args.keep.as_deref().map_or(Ok(()), claim::written)?;
     let save = args.common.save.as_deref().map(|p| Sink::open(Some(p))).transpose()?;
     if args.csv.is_some() {

@@ -203,6 +203,26 @@ fn tables_of_grains_that_are_none_are_refused_with_their_line() {
     assert!(said("g.csv", "").contains("no blocks found"));
 }
 
+/// A dump of several times in a periodic box: what is not read is said.
+#[test]
+fn times_and_periodic_sides_of_a_dump_are_told() {
+    let at = |time: usize, z: f64| {
+        format!(
+            "ITEM: TIMESTEP\n{time}\nITEM: BOX BOUNDS pp fm pp\n0 1\n0 1\n0 1\nITEM: ATOMS id x y z radius\n1 0 0 {z} 0.1\n"
+        )
+    };
+    let dump = at(0, 0.5) + &at(10, 0.25);
+    let read = import_bytes("t.dump", dump.as_bytes(), &ImportOptions::default()).unwrap();
+    assert_eq!(read.scene.blocks.len(), 1);
+    assert_eq!(read.scene.blocks[0].at[2], 0.25);
+    for part in ["the last is read: 2", "periodic sides along x, z"] {
+        assert!(read.findings.iter().any(|f| f.text.contains(part)), "{part}: {:?}", read.findings);
+    }
+    let closed = dump.replace("pp", "ff");
+    let read = import_bytes("t.dump", closed.as_bytes(), &ImportOptions::default()).unwrap();
+    assert!(!read.findings.iter().any(|f| f.text.contains("periodic")), "{:?}", read.findings);
+}
+
 /// What a type means is a guess, and is said.
 #[test]
 fn spheres_that_are_taken_for_supports_are_told() {

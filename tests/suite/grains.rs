@@ -431,6 +431,18 @@ fn a_small_heap_comes_to_rest_in_the_same_place_in_every_unit_of_length() {
     assert_eq!(read_str("heap", written.to_string()).unwrap().0, one.scene);
 }
 
+/// Before it starts, of a box in which no slope has cells enough; the default is one that has.
+#[test]
+fn a_box_that_is_too_short_is_told_before_it_is_filled() {
+    let said = |grains: usize, size: Option<[f64; 2]>| {
+        repose::judge::foretold(&Protocol { grains, size, ..Protocol::default() })
+    };
+    assert!(said(500, None).is_some_and(|t| t.contains("at most 5 cells")));
+    assert!(said(2000, None).is_none() && said(500, Some([15.0, 4.0])).is_none());
+    let cylinder = Protocol { grains: 500, kind: ProtocolKind::Cylinder, ..Protocol::default() };
+    assert!(repose::judge::foretold(&cylinder).is_none());
+}
+
 #[test]
 fn a_heap_that_is_stopped_says_that_it_still_moves() {
     let mut looks = 0;

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import json
 import os
+import warnings
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
@@ -359,6 +360,11 @@ def import_file(
     -------
     Scene
 
+    Warns
+    -----
+    UserWarning
+        For what was left out, and for what is missing before a question can be asked.
+
     Raises
     ------
     InputError
@@ -390,7 +396,7 @@ def import_file(
             raise InputError(f"{file}: import it alone, files of this kind hold whole models")
         data, unit = solids
         files, name, scale = [], os.path.basename(file), unit if scale is None else scale
-    scene, _ = _core.import_scene(
+    scene, findings = _core.import_scene(
         files,
         name=name,
         data=data,
@@ -407,6 +413,9 @@ def import_file(
         depth=depth,
         layers=json.dumps(dict(layers or {})),
     )
+    for code, text, is_implausible, _ in findings:
+        if is_implausible or code in ("left_out", "missing"):
+            warnings.warn(text, stacklevel=2)
     return Scene._of(scene)
 
 

@@ -4,7 +4,7 @@
 //! enough cells, explains them, falls by more than a grain, does not end where box or floor do, and
 //! is the same all around and all the way down. Whatever fails is named; all thresholds are here.
 
-use super::surface::{Fit, Reading};
+use super::surface::{CELL, Fit, Reading};
 use scene::{GrainKind, Protocol, ProtocolKind};
 
 /// Fewest cells of the mean surface. Fewer: a default heap of 500 grains has four or five, and its
@@ -96,6 +96,19 @@ fn cut(protocol: &Protocol, fit: &Fit, gone: usize) -> Option<String> {
         // Closed: it begins and ends at a wall, whose cells are left out. Others leave no slope.
         _ => None,
     }
+}
+
+/// Why a box shows no angle of repose however its grains flow; nothing where it may. The cell at the wall is
+/// left out, and the last one is the toe of any slope up to 45°.
+pub fn foretold(protocol: &Protocol) -> Option<String> {
+    let [length, _] = protocol.size();
+    let most = ((length / CELL).ceil() as usize).saturating_sub(2);
+    (protocol.kind == ProtocolKind::Drain && most < FEWEST_CELLS).then(|| {
+        format!(
+            "a box {length:.1} d long leaves at most {most} cells of its surface between wall and toe, and an angle of repose needs {FEWEST_CELLS}: take grains=2000 or more, or size=[LENGTH,WIDTH] with at least {} d and grains to fill it",
+            CELL * (FEWEST_CELLS + 2) as f64
+        )
+    })
 }
 
 /// Least height of the bed before its wall is taken away, d.

@@ -22,6 +22,10 @@ pub fn hull(points: &[[f64; 3]]) -> Option<Hull> {
     (volume > 0.0).then_some(Hull { vertices, faces: faces(triangles), volume })
 }
 
+/// Volume over the cube of the size, below which points lie in a plane. Less: rounding is a body. More:
+/// needles are none.
+const FLAT: f64 = 1e-12;
+
 /// Corners, and the corners of each face.
 pub type Corners = (Vec<[f64; 3]>, Vec<Vec<usize>>);
 
@@ -29,6 +33,12 @@ pub type Corners = (Vec<[f64; 3]>, Vec<Vec<usize>>);
 /// `None` where the points lie in a plane.
 pub fn corners(points: &[[f64; 3]]) -> Option<Corners> {
     let (corners, triangles) = raw(points)?;
+    // Of points in a plane there is a hull, too, of two sides.
+    let volume = MassProperties::from_convex_polyhedron(1.0, &corners, &triangles).mass();
+    let size = corners.iter().map(|c| (*c - corners[0]).length()).fold(0.0, f64::max);
+    if volume <= FLAT * size.powi(3) {
+        return None;
+    }
     Some((corners.iter().map(|c| [c.x, c.y, c.z]).collect(), faces(triangles)))
 }
 

@@ -71,6 +71,10 @@ pub(super) fn scene(mut files: Vec<Raw>, options: &ImportOptions) -> Result<Impo
             }
             scene.members.push(member);
         }
+        for mut load in file.dead {
+            load.force = load.force.map(|f| up.rotate(f));
+            scene.loads.dead.push(load);
+        }
         for mut load in file.loads {
             if let Some(At::Point(at)) = &mut load.at {
                 place(std::slice::from_mut(at), load.block.as_deref().unwrap_or("load"))?;
@@ -232,7 +236,8 @@ fn name_files_apart(files: &mut [Raw]) -> Result<Vec<Finding>, InputError> {
             ends.flat_map(|e| &mut e.block).for_each(|b| *b = rename(b));
         }
         file.stages.iter_mut().flat_map(|s| &mut s.add).for_each(|b| *b = rename(b));
-        file.loads.iter_mut().flat_map(|l| &mut l.block).for_each(|b| *b = rename(b));
+        let loads = file.loads.iter_mut().chain(&mut file.dead);
+        loads.flat_map(|l| &mut l.block).for_each(|b| *b = rename(b));
         prefixes.push(prefix);
     }
     if let Some(still) = self::clash(files) {

@@ -1,7 +1,7 @@
 //! Which format a file has.
 
 use super::{
-    packing, stl,
+    chrono, packing, stl,
     text::{split, unmarked},
     threedec, xml,
 };
@@ -33,6 +33,8 @@ pub enum Format {
     Sdf,
     /// glTF 2.0, as text or binary.
     Gltf,
+    /// Brick files of Chrono's masonry simulator.
+    Chrono,
     /// A list of boxes with their places (CSV).
     Packing,
     /// Spheres, as a table or as a dump of LIGGGHTS or LAMMPS.
@@ -65,7 +67,7 @@ const fn known(
 }
 
 /// All that are read.
-pub const FORMATS: [Known; 13] = [
+pub const FORMATS: [Known; 14] = [
     known(
         Format::Dxf,
         "DXF",
@@ -107,6 +109,13 @@ pub const FORMATS: [Known; 13] = [
     known(Format::Mjcf, "MJCF", &["mjcf"], "bodies of MuJoCo, also as .xml", "scene.xml"),
     known(Format::Urdf, "URDF", &["urdf"], "bodies of robots", "object.urdf"),
     known(Format::Sdf, "SDF", &["sdf"], "bodies of Gazebo", "world.sdf"),
+    known(
+        Format::Chrono,
+        "Chrono bricks",
+        &[],
+        "rows of corners (.txt)",
+        "bricks.txt --friction 0.5",
+    ),
     known(
         Format::Packing,
         "packing list",
@@ -182,6 +191,8 @@ impl Format {
                 && split(text).nth(1).is_some_and(|l| l.trim_ascii() == b"SECTION"))
         {
             Some(Format::Dxf)
+        } else if chrono::looks_like(text) {
+            Some(Format::Chrono)
         } else if packing::looks_like(text) {
             Some(Format::Packing)
         } else if threedec::looks_like(text) {

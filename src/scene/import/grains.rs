@@ -24,6 +24,30 @@ const NAMES: [(&str, &[&str]); 8] = [
     ("type", &[]),
 ];
 
+/// What a dump has that grains alone do not: earlier times, and sides that repeat themselves.
+fn of_dump(head: &[(usize, String)], raw: &mut Raw) {
+    let times = head.iter().filter(|(_, t)| t.starts_with("ITEM: ATOMS")).count();
+    if times > 1 {
+        let text = format!("times of the dump, of which the last is read: {times}");
+        raw.say(FindingCode::LeftOut, text);
+    }
+    let bounds = head.iter().rev().find_map(|(_, t)| t.strip_prefix("ITEM: BOX BOUNDS"));
+    // Tilts of the box may stand before the kinds of its sides.
+    let kinds = bounds.unwrap_or_default().split_whitespace().filter(|w| w.len() == 2);
+    let kinds = kinds.filter(|w| w.chars().all(|c| "pfsm".contains(c)));
+    let around: Vec<&str> =
+        kinds.zip(["x", "y", "z"]).filter(|(w, _)| *w == "pp").map(|(_, axis)| axis).collect();
+    if !around.is_empty() {
+        raw.say(
+            FindingCode::LeftOut,
+            format!(
+                "periodic sides along {}, left out: grains do not touch across them, and those at the sides may fall",
+                around.join(", ")
+            ),
+        );
+    }
+}
+
 /// The spheres of a file.
 pub(super) fn read(bytes: &[u8]) -> Result<Raw, InputError> {
     let lines = lines(bytes)?;
@@ -61,6 +85,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw, InputError> {
         None => (column("diameter").map_or_else(|| needed("radius"), Ok)?, 0.5),
     };
     let mut raw = Raw::default();
+    if let Some(at) = last {
+        of_dump(&lines[..=at], &mut raw);
+    }
     let mut parts: BTreeMap<String, Vec<Grain>> = BTreeMap::new();
     let mut order: Vec<String> = Vec::new();
     let mut by_type = 0;

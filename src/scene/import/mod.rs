@@ -11,6 +11,7 @@
 //! | STL | ASCII and binary | a `solid`, a binary file |
 //! | MJCF, URDF, SDF | shapes that touch of rigid bodies; what is articulated is refused | a free body with all that is welded to it; a shape that is held |
 //! | glTF | text and binary, triangles; exact shapes of our own exports | a node with a mesh |
+//! | Chrono bricks | rows of corners, y up; applied forces as dead loads | a row, the hull of its corners |
 //! | packing list | tables (CSV) of boxes with their places, in order | a box; a stage a box |
 //! | grains | tables (CSV), dumps of LIGGGHTS and LAMMPS | a sphere, a clump of them |
 //!
@@ -25,6 +26,7 @@
 //! Coordinates of the scene = rotation that brings [`ImportOptions::up`] to z ×
 //! [`ImportOptions::scale`] × coordinates of the file.
 
+mod chrono;
 mod compas;
 mod drawing;
 mod dxf;
@@ -196,6 +198,7 @@ fn read(
             Format::Svg => svg::read(bytes, options),
             Format::Ply => ply::read(bytes, &stem),
             Format::Stl => stl::read(bytes, &stem),
+            Format::Chrono => chrono::read(bytes),
             Format::Packing => packing::read(bytes, options),
             Format::Grains => grains::read(bytes),
             Format::Mjcf => mjcf::read(bytes, folder),

@@ -35,6 +35,8 @@ pub(super) struct Raw {
     pub members: Vec<Member>,
     /// Live loads.
     pub loads: Vec<Load>,
+    /// Dead loads.
+    pub dead: Vec<Load>,
     /// Stages of construction.
     pub stages: Vec<StageSpec>,
     pub findings: Vec<Finding>,

@@ -3,6 +3,7 @@
 
 mod bad;
 mod bodies;
+mod chrono;
 mod compas;
 mod dxf;
 mod mesh_formats;
