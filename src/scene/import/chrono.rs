@@ -8,6 +8,7 @@
 use super::{
     Up,
     raw::{Heft, Raw, Solid, tally},
+    rigid::set_apart,
     text::{self, error, lines, shorten},
 };
 use crate::{Load, generate::hull};
@@ -78,6 +79,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw, InputError> {
             };
             let first = block.vertices.len();
             block.vertices.extend(vertices);
+            if hulls.len() > 1 {
+                set_apart(&mut block.vertices[first..]);
+            }
             block
                 .faces
                 .extend(faces.into_iter().map(|f| f.into_iter().map(|k| first + k).collect()));
@@ -95,7 +99,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw, InputError> {
         raw.blocks.push(block);
     }
     let said = [
-        (FindingCode::Converted, joined, "blocks of several hulls, one rigid block each"),
+        (
+            FindingCode::Converted,
+            joined,
+            "blocks of several hulls, one rigid block each, the hulls smaller by a millionth so as not to touch each other",
+        ),
         (
             FindingCode::Missing,
             undense,

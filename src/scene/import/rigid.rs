@@ -26,6 +26,10 @@ use std::{
 /// nothing.
 const SAGITTA: f64 = 0.25 * CONTACT_GAP;
 
+/// Parts of one block are smaller by this share of their size. Larger: what touches another block no longer
+/// does ([`CONTACT_GAP`]). Smaller: shells touch, to rounding of files in single precision.
+const APART: f64 = 1e-6;
+
 /// Fewest sides of such a prism: of needles, whose width is next to nothing of their size.
 const FEWEST_SIDES: usize = 16;
 
@@ -241,6 +245,7 @@ impl Made {
             return;
         }
         let (mut vertices, mut faces) = (Vec::new(), Vec::new());
+        let is_joined = parts.len() > 1;
         for part in &parts {
             let mesh = match part.form {
                 Form::Cylinder { radius, half } => {
@@ -254,6 +259,9 @@ impl Made {
             let first = vertices.len();
             let point = |v: &[f64; 3]| -> [f64; 3] { (part.pose * Point3::from(*v)).coords.into() };
             vertices.extend(mesh.vertices.iter().map(point));
+            if is_joined {
+                set_apart(&mut vertices[first..]);
+            }
             faces
                 .extend(mesh.faces.iter().map(|f| f.iter().map(|v| first + v).collect::<Vec<_>>()));
         }
@@ -300,7 +308,12 @@ impl Made {
             (Converted, self.renamed, "blocks of the same name, renamed", ""),
             (Converted, self.held, "shapes that cannot move, each a support", ""),
             (Converted, self.planes, "planes, unbounded supports whatever their size", ""),
-            (Converted, self.joined, "bodies of several shapes, one rigid block each", ""),
+            (
+                Converted,
+                self.joined,
+                "bodies of several shapes, one rigid block each",
+                "; the shapes are smaller by a millionth, so as not to touch each other",
+            ),
             (
                 Converted,
                 self.cylinders,
@@ -366,6 +379,7 @@ fn heft(body: &Body) -> Heft {
     let exact = |p: &Part| !p.is_ghost && !matches!(p.form, Form::Cylinder { .. });
     if let Some(Weight::Density(density)) = body.parts.first().map(|p| p.weight)
         && body.lumps.is_empty()
+        && (body.parts.len() == 1 || matches!(body.parts[0].form, Form::Sphere(_)))
         && body.parts.iter().all(|p| exact(p) && p.weight == Weight::Density(density))
     {
         return Heft { density: Some(density), ..Heft::default() };
@@ -417,6 +431,16 @@ pub(super) fn of_mesh(vertices: &[[f64; 3]], faces: &[Vec<usize>]) -> (f64, Poin
     }
     let middle = if six == 0.0 { Vector3::zeros() } else { first / six };
     (six.abs() / 6.0, Point3::from(origin + middle))
+}
+
+/// Draws a part of a block towards its middle, by so little that contacts do not notice: shells of one
+/// polyhedron may not touch each other.
+pub(super) fn set_apart(part: &mut [[f64; 3]]) {
+    let n = part.len().max(1) as f64;
+    let middle: Vector3<f64> = part.iter().map(|v| Vector3::from(*v)).sum::<Vector3<f64>>() / n;
+    for v in part {
+        *v = (middle + (Vector3::from(*v) - middle) * (1.0 - APART)).into();
+    }
 }
 
 /// A box by half its sides, about the origin.

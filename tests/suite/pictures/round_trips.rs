@@ -150,3 +150,23 @@ fn what_is_not_in_a_model_is_told() {
         assert!(said.contains("\"ell\"") && said.contains(word), "{said}");
     }
 }
+
+/// Bodies of shapes that touch, as robots and brick files have them, are blocks that can be asked about.
+#[test]
+fn shapes_of_one_body_may_touch() {
+    let geom = |at: f64, high: f64| {
+        format!("<geom type='box' size='0.5 0.5 {high}' pos='0 {at} {high}' density='1000'/>")
+    };
+    let model_of = format!(
+        "<mujoco><worldbody><geom name='floor' type='plane' size='5 5 1'/><body name='ell'><freejoint/>{}{}</body></worldbody></mujoco>",
+        geom(0.0, 1.0),
+        geom(1.0, 0.5)
+    );
+    let came = import_bytes("ell.xml", model_of.as_bytes(), &ImportOptions::default()).unwrap();
+    let ell = model(&came.scene);
+    let block = ell.assembly.blocks.iter().find(|b| b.id == "ell").unwrap();
+    assert!((block.mass / 3000.0 - 1.0).abs() < 1e-12, "{}", block.mass);
+    assert!((block.solid.volume() / 3.0 - 1.0).abs() < 4e-6);
+    let area: f64 = ell.interfaces.list.iter().map(|f| f.area).sum();
+    assert!((area / 2.0 - 1.0).abs() < 1e-5, "{area}");
+}
